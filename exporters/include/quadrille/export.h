@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "quadrille/run_context.h"
+#include "quadrille/vector_image.h"
+
+namespace quadrille {
+
+struct RasterFileOptions {
+  double scale = 1;  ///< output pixels per source pixel
+  int width = 0;     ///< when not 0, decides the size instead of scale
+  int bits = 8;      ///< 8, or 16 for PNG and TIFF
+  int quality = 90;  ///< JPEG and WebP, 1 to 100
+  /// Behind transparency where the format has none (JPEG).
+  std::array<float, 3> background = {1, 1, 1};
+};
+
+struct SvgOptions {
+  /// Largest colour error of a cell, in 8-bit steps: 8 compact, 4 balanced, 2 faithful.
+  double tolerance = 4;
+  std::string title = "Quadrille picture";
+};
+
+struct PdfOptions {
+  double dpi = 96;       ///< source pixels per inch; decides the page size
+  double tolerance = 2;  ///< largest colour error of a sub-patch, in 8-bit steps
+  std::string title = "Quadrille picture";
+};
+
+struct GltfOptions {
+  double texels_per_pixel = 2;
+};
+
+struct VtkOptions {};
+
+struct ExportOptions {
+  RasterFileOptions raster;
+  SvgOptions svg;
+  PdfOptions pdf;
+  GltfOptions gltf;
+  VtkOptions vtk;
+};
+
+/// One writer per format. Each writes to a temporary beside the target and renames it; the same
+/// bytes for any thread count. They throw Error{io_failure} when the file cannot be written.
+void write_raster_file(const VectorImage& image, const std::filesystem::path& path,
+                       const RasterFileOptions& options = {}, const RunContext& context = {});
+void write_svg(const VectorImage& image, const std::filesystem::path& path,
+               const SvgOptions& options = {}, const RunContext& context = {});
+void write_pdf(const VectorImage& image, const std::filesystem::path& path,
+               const PdfOptions& options = {}, const RunContext& context = {});
+void write_glb(const VectorImage& image, const std::filesystem::path& path,
+               const GltfOptions& options = {}, const RunContext& context = {});
+void write_vtu(const VectorImage& image, const std::filesystem::path& path,
+               const VtkOptions& options = {}, const RunContext& context = {});
+
+/// File endings, with the dot and in lower case, that export_image() writes in this build.
+std::vector<std::string> export_endings();
+
+/// Chooses the writer by the ending of the path: .quad, .png, .jpg, .jpeg, .webp, .tif, .tiff,
+/// .svg, .pdf, .glb, .vtu. Throws Error{unsupported_format} for any other, naming those it can
+/// write.
+void export_image(const VectorImage& image, const std::filesystem::path& path,
+                  const ExportOptions& options = {}, const RunContext& context = {});
+
+}  // namespace quadrille

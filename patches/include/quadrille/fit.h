@@ -1,0 +1,41 @@
+#pragma once
+
+#include "quadrille/patch_mesh.h"
+#include "quadrille/raster.h"
+#include "quadrille/run_context.h"
+
+namespace quadrille {
+
+enum class FitMethod {
+  bessel,   ///< the paper, section 4.1: colour sampled at the vertex, Bessel derivatives, no twist
+  hermite,  ///< value, gradient and twist per wedge by least squares over all pixels
+};
+
+struct FitOptions {
+  FitMethod method = FitMethod::hermite;
+  /// Tikhonov weight toward the Bessel solution, relative to the normal matrix' diagonal.
+  double regularization = 1e-4;
+  /// Relative residual at which the conjugate gradients stop.
+  double tolerance = 1e-4;
+  int max_iterations = 200;
+};
+
+struct FitReport {
+  int iterations = 0;   ///< of the conjugate gradients; 0 for bessel
+  double residual = 0;  ///< relative, at the end
+};
+
+/// Estimates the colours of every wedge so that the patches reproduce the picture: hermite
+/// minimises the squared difference at the pixel centres, alpha premultiplied, clamping left to the
+/// renderer. Geometry is taken as it is. The picture must cover the same rectangle as the mesh;
+/// pixel (i, j) is compared at (i + 0.5, j + 0.5). Throws Error{invalid_argument} for a mesh
+/// without patches.
+FitReport fit_colors(PatchMesh& patches, const Raster& picture, const FitOptions& options = {},
+                     const RunContext& context = {});
+
+/// Geometry and colours in one step: straight_patches, set_bessel_tangents, guard_folds,
+/// fit_colors. The mesh must have strictly convex quads (see validate()).
+PatchMesh fit_patches(QuadMesh mesh, const Raster& picture, const FitOptions& options = {},
+                      const RunContext& context = {});
+
+}  // namespace quadrille

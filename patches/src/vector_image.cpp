@@ -1,0 +1,31 @@
+#include "quadrille/vector_image.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille {
+
+int VectorImage::patch_count() const {
+  int count = 0;
+  for (const Layer& layer : layers) count += layer.patches.patch_count();
+  return count;
+}
+
+bool VectorImage::opaque() const {
+  if (layers.empty()) return false;
+  for (const Layer& layer : layers) {
+    if (!layer.patches.opaque) return false;
+  }
+  const Layer& bottom = layers.front();
+  if (!bottom.transform.isApprox(Eigen::Affine2d::Identity(), 1e-12)) return false;
+  double area = 0;
+  const QuadMesh& mesh = bottom.patches.mesh;
+  for (const auto& c : mesh.quads()) {
+    const Eigen::Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
+    const Eigen::Vector2d e = mesh.vertices[c[3]] - mesh.vertices[c[1]];
+    area += 0.5 * (d.x() * e.y() - d.y() * e.x());
+  }
+  return std::abs(area - width * height) <= 1e-9 * width * height;
+}
+
+}  // namespace quadrille

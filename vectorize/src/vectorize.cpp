@@ -1,0 +1,1 @@
+#include "quadrille/vectorize.h"
