@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <complex>
 
 #include "quadrille/field_grid.h"
@@ -15,6 +16,9 @@ struct FeatureTensor {
   FieldGrid<std::complex<float>> direction;
   /// How much the direction matters: 0 in flat regions to 1 on strong features.
   FieldGrid<float> weight;
+  /// Colour gradient: points along the strongest change (either way), its length is that change in
+  /// sRGB units per working pixel.
+  FieldGrid<Eigen::Vector2f> gradient;
   /// 1 on the thinned feature lines (Canny), else 0.
   FieldGrid<unsigned char> edges;
 };

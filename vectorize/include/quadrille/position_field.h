@@ -14,7 +14,7 @@ struct PositionField {
 
 struct PositionOptions {
   int sweeps = 6;               ///< smoothing sweeps per level of the hierarchy
-  double feature_weight = 0.5;  ///< c of the projection onto features, 0 to 1
+  double feature_weight = 0.2;  ///< c of the projection onto features, 0 to 1
 };
 
 /// Hierarchical smoothing of Eq. 9 over the 8-neighbourhood with intrinsic rounding, border and

@@ -8,7 +8,7 @@ namespace quadrille {
 /// edge that the fields are made for, so that the cost follows the quads; it is coarser or, for
 /// small pictures with many quads, finer than a source pixel.
 struct WorkingPicture {
-  Raster picture;      ///< RGB over white, sRGB-encoded
+  Raster picture;      ///< sRGB-encoded; colours premultiplied when it has alpha
   double scale_x = 1;  ///< source pixels per working pixel, horizontally
   double scale_y = 1;  ///< source pixels per working pixel, vertically
 };
