@@ -7,13 +7,15 @@
 namespace quadrille {
 namespace {
 
-constexpr double kPixelsPerEdge = 16;     // a lattice edge is two quad edges of 8 working pixels
+constexpr double kPixelsPerEdge = 14;     // a lattice edge is two quad edges
+constexpr double kWorthwhile = 1.25;      // reductions below this blur more than they save
 constexpr double kMinPixelsPerEdge = 10;  // below it regions get too few pixels to be told apart
 
 int working_side(int side, double edge) {
   if (edge < kMinPixelsPerEdge) return side * static_cast<int>(std::ceil(kMinPixelsPerEdge / edge));
-  const int factor = std::max(1, static_cast<int>(edge / kPixelsPerEdge));
-  return std::max(1, static_cast<int>(std::lround(static_cast<double>(side) / factor)));
+  const double factor = edge / kPixelsPerEdge;
+  if (factor < kWorthwhile) return side;
+  return std::max(1, static_cast<int>(std::lround(side / factor)));
 }
 
 Raster premultiplied(const Raster& picture) {
