@@ -5,7 +5,7 @@ endif()
 
 add_library(quadrille_flags INTERFACE)
 # Contraction into fused multiply-adds would make results depend on the compiler's choices.
-target_compile_options(quadrille_flags INTERFACE -Wall -Wextra -Wshadow=local -Wno-missing-field-initializers
+target_compile_options(quadrille_flags INTERFACE -Wall -Wextra -Wshadow=local -Wno-missing-field-initializers -Wno-restrict
                        -ffp-contract=off $<$<BOOL:${QUADRILLE_WERROR}>:-Werror>)
 
 # A room is a static library of all its sources. Its public headers live in include/, so an include

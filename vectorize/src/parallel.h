@@ -1,7 +1,10 @@
 #pragma once
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
 
 #include "quadrille/run_context.h"
 
@@ -18,7 +21,9 @@ void parallel_rows(const RunContext& context, int rows, int width, const Body& b
     for (int y = 0; y < rows; ++y) body(y);
     return;
   }
-  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
+  // oneTBB complains on stderr when asked for more threads than the machine has.
+  const int most = tbb::info::default_concurrency();
+  tbb::task_arena arena(context.threads > 0 ? std::min(context.threads, most) : most);
   arena.execute([&] {
     tbb::parallel_for(tbb::blocked_range<int>(0, rows, grain),
                       [&](const tbb::blocked_range<int>& range) {

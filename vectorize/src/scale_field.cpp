@@ -1,7 +1,9 @@
 #include "quadrille/scale_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "quadrille/error.h"
@@ -63,8 +65,18 @@ void normalise_count(FieldGrid<float>& length, double count) {
   for (float& l : length.data) l *= factor;
 }
 
-/// The factor that makes the mean number of cells across the picture whole.
-double whole_cells(double cells) { return cells / std::max(1.0, std::round(cells)); }
+/// Whole numbers of cells across and down whose product is nearest to that of the given ones.
+std::array<double, 2> whole_cells(double across, double down) {
+  std::array<double, 2> best{1, 1};
+  double best_miss = std::numeric_limits<double>::max();
+  for (const double x : {std::floor(across), std::ceil(across)}) {
+    for (const double y : {std::floor(down), std::ceil(down)}) {
+      const double miss = std::abs(x * y - across * down);
+      if (x >= 1 && y >= 1 && miss < best_miss) best_miss = miss, best = {x, y};
+    }
+  }
+  return best;
+}
 
 }  // namespace
 
@@ -86,11 +98,11 @@ ScaleField scale_field(const FeatureTensor& features, const CrossField& field, d
   limit_gradient(length, static_cast<float>(options.max_gradient));
   normalise_count(length, count);
 
-  double across_x = 0, across_y = 0;
-  for (float l : length.data) across_x += 1 / l;
-  across_y = across_x / w;
-  across_x /= h;
-  const double fit_x = whole_cells(across_x), fit_y = whole_cells(across_y);
+  double reciprocals = 0;
+  for (float l : length.data) reciprocals += 1 / l;
+  const double across = reciprocals / h, down = reciprocals / w;
+  const auto [columns, rows] = whole_cells(across, down);
+  const double fit_x = across / columns, fit_y = down / rows;
 
   ScaleField scale{length, length};
   for (int y = 0; y < h; ++y) {
