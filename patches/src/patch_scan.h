@@ -1,10 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <vector>
 
+#include "edge_polyline.h"
+#include "patch_inverse.h"
 #include "quadrille/patch_mesh.h"
 
 namespace quadrille {
@@ -22,45 +24,65 @@ struct SampleWindow {
   bool empty() const { return x_begin >= x_end || y_begin >= y_end; }
 };
 
+/// The part that both windows cover; empty when there is none.
+SampleWindow intersection(const SampleWindow& a, const SampleWindow& b);
+
+/// Samples x_begin <= x < x_end of row y.
+struct SampleSpan {
+  int y, x_begin, x_end;
+};
+
 /// Scan conversion of patch outlines with an exact coverage rule. Each mesh edge is evaluated once,
 /// at dyadic parameters, and put on a global fixed-point grid; the two patches beside it use the
 /// same integers, so every sample inside a fold-free mesh belongs to exactly one patch whatever the
-/// window.
+/// window. A sample lies in a patch when its centre does; a centre on an edge belongs to the patch
+/// on its right or, on a horizontal edge, below.
 class PatchScan {
  public:
-  /// Evaluates the edges of the patches; grid must give |coordinates| < 2^31 samples.
+  /// Evaluates all edges; grid must give |coordinates| < 2^31 samples, see append_edge_polyline for
+  /// the errors. Keeps a reference to the patches.
   PatchScan(const PatchMesh& patches, const SampleGrid& grid);
+  /// The same for any affine map from mesh coordinates to samples. With `wanted` only these
+  /// patches can be scanned, and only their edges are evaluated.
+  PatchScan(const PatchMesh& patches, const Eigen::Affine2d& to_samples);
+  PatchScan(const PatchMesh& patches, const Eigen::Affine2d& to_samples,
+            std::span<const int> wanted);
 
   /// Smallest window of samples that the patch's outline may cover (not clipped to anything).
   SampleWindow bounds(int patch) const;
+  /// Smallest window of samples whose squares [i, i + 1] x [j, j + 1] the outline may touch.
+  SampleWindow touched(int patch) const;
 
   /// Calls row(y, x_begin, x_end) for the samples of the window that the patch covers (winding
   /// number of its outline > 0), rows in ascending order and ranges of a row from left to right.
-  void scan(int patch, const SampleWindow& window,
-            const std::function<void(int y, int x_begin, int x_end)>& row) const;
+  template <class Row>
+  void scan(int patch, const SampleWindow& window, Row&& row) const {
+    std::vector<SampleSpan> found;
+    spans(patch, window, 0, found);
+    for (const SampleSpan& s : found) {
+      row(window.y_begin + s.y, window.x_begin + s.x_begin, window.x_begin + s.x_end);
+    }
+  }
+
+  /// The same ranges as a list that replaces `found`, relative to the window's first sample, with
+  /// every sample divided into 2^refinement x 2^refinement (0 <= refinement <= 8).
+  void spans(int patch, const SampleWindow& window, int refinement,
+             std::vector<SampleSpan>& found) const;
+
+  /// The edge as it is scanned, from the origin to the tip of its half-edge.
+  std::span<const FixedPoint> polyline(int edge) const {
+    return {points_.data() + polyline_begin_[edge], points_.data() + polyline_end_[edge]};
+  }
 
  private:
-  struct Point {
-    std::int64_t x, y;
-  };
-  std::vector<int> polyline_begin_;  // #E + 1
-  std::vector<Point> points_;        // fixed-point samples of all edges
+  std::vector<std::size_t> polyline_begin_, polyline_end_;  // #E; 0 where not evaluated
+  std::vector<FixedPoint> points_;
+  std::vector<std::array<FixedPoint, 2>> boxes_;  // #Q; corners of the outlines' bounding boxes
   const PatchMesh& patches_;
-};
+  /// Turning direction of outlines after the map: 1, or -1 when it mirrors.
+  int orientation_ = 1;
 
-/// Inverse of a patch's geometry: finds the parameters of a point of the plane. Prepared once per
-/// patch; each call depends on nothing but the patch and the point.
-class PatchInverse {
- public:
-  explicit PatchInverse(const BicubicHermite<Eigen::Vector2d>& geometry);
-
-  /// Parameters in [0,1]^2 whose position is p, clamped to the square for points slightly outside
-  /// (the outline is scanned as a polyline). For a fold-free patch the residual is below 1e-6 of
-  /// the patch's size wherever p lies inside.
-  Eigen::Vector2d operator()(const Eigen::Vector2d& p) const;
-
- private:
-  BicubicHermite<Eigen::Vector2d> geometry_;
+  void evaluate(int patch, const Eigen::Affine2d& to_samples);
 };
 
 }  // namespace quadrille

@@ -93,8 +93,8 @@ std::vector<std::string> sample_pictures() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, SamplePicture, testing::ValuesIn(sample_pictures()),
-                         [](const auto& info) {
-                           std::string name = fs::path(info.param).stem().string();
+                         [](const auto& sample) {
+                           std::string name = fs::path(sample.param).stem().string();
                            return name;
                          });
 

@@ -11,13 +11,15 @@
 namespace quadrille {
 
 /// The native document `.quad`: a FlatBuffers table compressed by zstd, lossless. Loading verifies
-/// everything before use: sizes and offsets, index ranges, adjacency, finite numbers.
+/// everything before use: sizes and offsets, index ranges, adjacency, wedges against tears, finite
+/// numbers.
 
-/// Never fails on a valid image; the same image gives the same bytes.
+/// The same image gives the same bytes. Throws Error{limit_exceeded} for an image that takes more
+/// than 2 GiB before compression, about 10 million patches.
 std::vector<std::byte> to_document(const VectorImage& image);
-/// Throws Error{unsupported_format} for a foreign file or a newer format version, and
-/// Error{io_failure} for a damaged one; Error{limit_exceeded} for one that would unpack to more
-/// than 4 GiB. `name` is used in messages.
+/// The image, bit for bit. Throws Error{unsupported_format} for a foreign file or a newer format
+/// version, Error{io_failure} for a damaged one, and Error{limit_exceeded} for one that claims to
+/// unpack to more than 2 GiB. `name` is used in messages.
 VectorImage from_document(std::span<const std::byte> bytes, const std::string& name = "document");
 
 /// Written to a temporary beside the target and renamed. Throws Error{io_failure}.

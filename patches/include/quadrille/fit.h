@@ -13,9 +13,12 @@ enum class FitMethod {
 
 struct FitOptions {
   FitMethod method = FitMethod::hermite;
-  /// Tikhonov weight toward the Bessel solution, relative to the normal matrix' diagonal.
+  /// Tikhonov weight toward the Bessel solution, as a share of what the pixels weigh: every square
+  /// pixel of a patch adds this weight times the mean squared distance of its colours from that
+  /// solution. Positive.
   double regularization = 1e-4;
-  /// Relative residual at which the conjugate gradients stop.
+  /// The conjugate gradients start at the Bessel solution and stop when its residual has fallen by
+  /// this factor; in (0, 1).
   double tolerance = 1e-4;
   int max_iterations = 200;
 };
@@ -28,8 +31,10 @@ struct FitReport {
 /// Estimates the colours of every wedge so that the patches reproduce the picture: hermite
 /// minimises the squared difference at the pixel centres, alpha premultiplied, clamping left to the
 /// renderer. Geometry is taken as it is. The picture must cover the same rectangle as the mesh;
-/// pixel (i, j) is compared at (i + 0.5, j + 0.5). Throws Error{invalid_argument} for a mesh
-/// without patches.
+/// pixel (i, j) is compared at (i + 0.5, j + 0.5). A picture without alpha gives opaque patches:
+/// alpha exactly 1, its derivatives exactly 0. Linear pictures are reproduced by both methods.
+/// The same bits for any thread count. Throws Error{invalid_argument} for a mesh without patches,
+/// an empty picture or options outside their ranges.
 FitReport fit_colors(PatchMesh& patches, const Raster& picture, const FitOptions& options = {},
                      const RunContext& context = {});
 

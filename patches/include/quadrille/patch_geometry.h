@@ -8,15 +8,16 @@ namespace quadrille {
 /// Hansford, The Essentials of CAGD): at a vertex, an edge and its opposite edge get the derivative
 /// of the parabola through the three points, scaled by each edge's chord length, so curves are G1.
 /// "Opposite" pairs the edges of a valence-4 interior vertex across each other, the two border
-/// edges of a border vertex of valence 3 or more when they run straight on, and, at other valences,
-/// pairs of edges that deviate least from a straight line, below 45 degrees; unpaired ends take the
-/// parabola's end derivative toward the other end of the edge. Border edges of the picture stay
-/// straight lines along the border.
+/// edges of a border vertex of valence 3 or more when they deviate from a straight line by less
+/// than 45 degrees, and of the others the pairs that deviate least, below 45 degrees, but never two
+/// sides of one quad; unpaired ends take the parabola's end derivative toward the other end of the
+/// edge. Straight borders stay straight.
 void set_bessel_tangents(PatchMesh& patches);
 
 /// True when the Bezier coefficients of the Jacobian det(P_u, P_v) are all positive, after at most
 /// `depth` subdivisions of the parameter square into quarters: a proof that the patch does not
-/// fold.
+/// fold. Positive means above 1e-13 of the product of the largest derivatives, which rounding could
+/// not add.
 bool certify_fold_free(const BicubicHermite<Eigen::Vector2d>& geometry, int depth = 2);
 
 struct FoldGuardReport {
@@ -26,7 +27,8 @@ struct FoldGuardReport {
 };
 
 /// Shrinks the tangents of uncertified patches step by step toward the chords of their edges until
-/// all patches are certified. A strictly convex quad with straight edges always is.
+/// all patches are certified. A strictly convex quad with straight edges always is. The collinear
+/// tangents of opposite edges part where only one of them is shrunk.
 FoldGuardReport guard_folds(PatchMesh& patches);
 
 }  // namespace quadrille

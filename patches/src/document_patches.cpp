@@ -1,0 +1,153 @@
+#include "document_patches.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "byte_planes.h"
+#include "document_container.h"
+#include "quadrille/error.h"
+
+namespace quadrille {
+namespace {
+
+using Bytes = flatbuffers::Vector<std::uint8_t>;
+using EdgeTangents = std::array<Eigen::Vector2d, 2>;
+static_assert(sizeof(Wedge) == 16 * sizeof(float));
+static_assert(sizeof(EdgeTangents) == 4 * sizeof(double));
+
+template <class Word>
+std::vector<std::uint8_t> planes(const std::vector<Word>& words, std::size_t components) {
+  return split_planes(std::span<const Word>(words), components);
+}
+
+/// The words of an array of elements of `components` words each; refuses a size in between.
+template <class Word>
+std::vector<Word> words_from(const Bytes& bytes, std::size_t components, const std::string& name) {
+  if (bytes.size() % (components * sizeof(Word)) != 0) {
+    report_damaged_document(name, "an array has a wrong size");
+  }
+  return join_planes<Word>(std::span(bytes.data(), bytes.size()), components);
+}
+
+template <class Number, class Element>
+void check_finite(const std::vector<Element>& elements, const std::string& name) {
+  static_assert(sizeof(Element) % sizeof(Number) == 0);
+  const auto* numbers = reinterpret_cast<const Number*>(elements.data());
+  const std::size_t count = elements.size() * (sizeof(Element) / sizeof(Number));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!std::isfinite(numbers[i])) report_damaged_document(name, "a number is not finite");
+  }
+}
+
+void check_size(std::size_t is, std::size_t should_be, const char* what, const std::string& name) {
+  if (is == should_be) return;
+  report_damaged_document(name, "it has " + std::to_string(is) + " " + what + " instead of " +
+                                    std::to_string(should_be));
+}
+
+std::vector<std::uint32_t> coded_quads(const std::vector<QuadMesh::Quad>& quads) {
+  std::vector<std::uint32_t> words = words_of<std::uint32_t>(quads);
+  for (std::size_t i = words.size(); i-- > 4;) words[i] = zigzag_difference(words[i], words[i - 4]);
+  return words;
+}
+
+std::vector<QuadMesh::Quad> decoded_quads(std::vector<std::uint32_t> words) {
+  for (std::size_t i = 4; i < words.size(); ++i) {
+    words[i] = undo_zigzag_difference(words[i], words[i - 4]);
+  }
+  return elements_of<QuadMesh::Quad>(words);
+}
+
+QuadMesh restore_mesh(const fbs::LosslessPatches& stored, const std::string& name) {
+  std::vector<QuadMesh::Quad> quads =
+      decoded_quads(words_from<std::uint32_t>(*stored.quads(), 4, name));
+  std::vector<Eigen::Vector2d> vertices =
+      elements_of<Eigen::Vector2d>(words_from<std::uint64_t>(*stored.vertices(), 2, name));
+  check_finite<double>(vertices, name);
+  try {
+    return QuadMesh(std::move(vertices), std::move(quads));
+  } catch (const Error& error) {
+    report_damaged_document(name, error.what());
+  }
+}
+
+/// The wedges may be numbered in any order, but must divide the corners of each vertex as its tears
+/// do, and every wedge must be in use.
+void check_wedges(const PatchMesh& patches, const std::string& name) {
+  const PatchMesh reference = straight_patches(patches.mesh);
+  check_size(patches.wedges.size(), reference.wedges.size(), "wedges", name);
+  const int count = static_cast<int>(reference.wedges.size());
+  std::vector<int> wedge_of_reference(count, -1), reference_of_wedge(count, -1);
+  for (std::size_t h = 0; h < reference.wedge_of_corner.size(); ++h) {
+    const int r = reference.wedge_of_corner[h], w = patches.wedge_of_corner[h];
+    if (w < 0 || w >= count) report_damaged_document(name, "a wedge is out of range");
+    if (wedge_of_reference[r] < 0 && reference_of_wedge[w] < 0) {
+      wedge_of_reference[r] = w;
+      reference_of_wedge[w] = r;
+    }
+    if (wedge_of_reference[r] != w || reference_of_wedge[w] != r) {
+      report_damaged_document(name, "the wedges contradict the tears");
+    }
+  }
+}
+
+}  // namespace
+
+flatbuffers::Offset<fbs::LosslessPatches> store_patches(flatbuffers::FlatBufferBuilder& builder,
+                                                        const PatchMesh& patches) {
+  std::vector<std::uint32_t> wedges = words_of<std::uint32_t>(patches.wedge_of_corner);
+  for (std::size_t h = 0; h < wedges.size(); ++h) {
+    wedges[h] = zigzag_difference(
+        wedges[h], static_cast<std::uint32_t>(patches.mesh.origin(static_cast<int>(h))));
+  }
+  const auto quads = builder.CreateVector(planes(coded_quads(patches.mesh.quads()), 4));
+  const auto vertices =
+      builder.CreateVector(planes(words_of<std::uint64_t>(patches.mesh.vertices), 2));
+  const auto edge_flags = builder.CreateVector(patches.mesh.edge_flags);
+  const auto edge_tangents =
+      builder.CreateVector(planes(words_of<std::uint64_t>(patches.edge_tangents), 4));
+  const auto wedge_of_corner = builder.CreateVector(planes(wedges, 4));
+  const auto wedge_values =
+      builder.CreateVector(planes(words_of<std::uint32_t>(patches.wedges), 16));
+  return fbs::CreateLosslessPatches(builder, quads, vertices, edge_flags, edge_tangents,
+                                    wedge_of_corner, wedge_values);
+}
+
+PatchMesh restore_patches(const fbs::LosslessPatches& stored, const std::string& name) {
+  PatchMesh patches;
+  patches.mesh = restore_mesh(stored, name);
+  const QuadMesh& mesh = patches.mesh;
+  const std::size_t edges = mesh.edge_count(), corners = mesh.halfedge_count();
+
+  check_size(stored.edge_flags()->size(), edges, "edge flags", name);
+  patches.mesh.edge_flags.assign(stored.edge_flags()->begin(), stored.edge_flags()->end());
+
+  patches.edge_tangents =
+      elements_of<EdgeTangents>(words_from<std::uint64_t>(*stored.edge_tangents(), 4, name));
+  check_size(patches.edge_tangents.size(), edges, "edge tangents", name);
+  check_finite<double>(patches.edge_tangents, name);
+
+  std::vector<std::uint32_t> wedges = words_from<std::uint32_t>(*stored.wedge_of_corner(), 4, name);
+  check_size(wedges.size(), corners, "corners", name);
+  for (std::size_t h = 0; h < corners; ++h) {
+    wedges[h] = undo_zigzag_difference(
+        wedges[h], static_cast<std::uint32_t>(mesh.origin(static_cast<int>(h))));
+  }
+  patches.wedge_of_corner = elements_of<int>(wedges);
+  patches.wedges = elements_of<Wedge>(words_from<std::uint32_t>(*stored.wedges(), 16, name));
+  check_finite<float>(patches.wedges, name);
+  check_wedges(patches, name);
+  return patches;
+}
+
+std::size_t stored_size(const PatchMesh& patches) {
+  return patches.mesh.quads().size() * 2 * sizeof(QuadMesh::Quad) +
+         patches.mesh.vertices.size() * sizeof(Eigen::Vector2d) + patches.mesh.edge_flags.size() +
+         patches.edge_tangents.size() * sizeof(EdgeTangents) +
+         patches.wedges.size() * sizeof(Wedge);
+}
+
+}  // namespace quadrille

@@ -1,0 +1,78 @@
+#include "edge_ends.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille {
+namespace {
+
+constexpr double kCosine45 = 0.70710678118654752;
+
+/// Minus the cosine of the angle between the chords of two ends at one vertex: 1 when one runs
+/// straight on from the other.
+double straightness(const QuadMesh& mesh, int a, int b) {
+  const Eigen::Vector2d origin = mesh.vertices[vertex_at(mesh, a)];
+  const Eigen::Vector2d p = mesh.vertices[vertex_at(mesh, a ^ 1)] - origin;
+  const Eigen::Vector2d q = mesh.vertices[vertex_at(mesh, b ^ 1)] - origin;
+  const double lengths = p.norm() * q.norm();
+  return lengths > 0 ? -p.dot(q) / lengths : -1;
+}
+
+/// The edge ends at v in fan order; those of the border come first and last.
+void collect_ends(const QuadMesh& mesh, int v, std::vector<int>& ends) {
+  ends.clear();
+  for (const int h : mesh.fan(v)) ends.push_back(edge_end(mesh, h, 0));
+  if (mesh.is_border_vertex(v)) {
+    ends.push_back(edge_end(mesh, QuadMesh::prev(mesh.fan(v).back()), 1));
+  }
+}
+
+/// True when the i-th and the j-th of n ends at a vertex bound the same quad.
+bool are_neighbours(std::size_t i, std::size_t j, std::size_t n, bool closed) {
+  return j - i == 1 || (closed && i == 0 && j + 1 == n);
+}
+
+/// Pairs ends, the straightest pair first; earlier ends win ties. The two sides of a quad's corner
+/// are no pair: a common tangent would fold the corner.
+void pair_straightest(const QuadMesh& mesh, const std::vector<int>& ends, bool closed,
+                      std::vector<int>& opposite) {
+  while (true) {
+    double best = kCosine45;
+    std::size_t first = 0, second = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      for (std::size_t j = i + 1; j < ends.size(); ++j) {
+        if (opposite[ends[i]] >= 0 || opposite[ends[j]] >= 0) continue;
+        if (are_neighbours(i, j, ends.size(), closed)) continue;
+        const double s = straightness(mesh, ends[i], ends[j]);
+        if (s > best) best = s, first = i, second = j;
+      }
+    }
+    if (first == second) return;
+    opposite[ends[first]] = ends[second];
+    opposite[ends[second]] = ends[first];
+  }
+}
+
+}  // namespace
+
+std::vector<int> opposite_ends(const QuadMesh& mesh) {
+  std::vector<int> opposite(2 * static_cast<std::size_t>(mesh.edge_count()), -1);
+  std::vector<int> ends;
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    collect_ends(mesh, v, ends);
+    const bool closed = !mesh.is_border_vertex(v);
+    if (closed && ends.size() == 4) {
+      for (int i = 0; i < 4; ++i) opposite[ends[i]] = ends[(i + 2) & 3];
+      continue;
+    }
+    if (!closed && ends.size() >= 3 && straightness(mesh, ends.front(), ends.back()) > kCosine45) {
+      opposite[ends.front()] = ends.back();
+      opposite[ends.back()] = ends.front();
+    }
+    pair_straightest(mesh, ends, closed, opposite);
+  }
+  return opposite;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,83 @@
+#include "quadrille/fit.h"
+
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "fit_bessel.h"
+#include "fit_solver.h"
+#include "fit_system.h"
+#include "parallel_ranges.h"
+#include "quadrille/error.h"
+#include "quadrille/patch_geometry.h"
+
+namespace quadrille {
+namespace {
+
+void check(const PatchMesh& patches, const Raster& picture, const FitOptions& options) {
+  const auto reject = [](const std::string& message) {
+    throw Error(ErrorCode::invalid_argument, message);
+  };
+  if (patches.patch_count() == 0) {
+    reject("colours cannot be fitted to a mesh without patches; pass at least one quad");
+  }
+  if (picture.width < 1 || picture.height < 1) {
+    reject("colours cannot be fitted to an empty picture; pass one of at least 1 x 1 pixels");
+  }
+  if (!(options.regularization > 0) || !std::isfinite(options.regularization)) {
+    reject("the fit's regularization is " + std::to_string(options.regularization) +
+           "; use a small positive number such as 1e-4");
+  }
+  if (!(options.tolerance > 0 && options.tolerance < 1)) {
+    reject("the fit's tolerance is " + std::to_string(options.tolerance) +
+           "; use a number between 0 and 1 such as 1e-4");
+  }
+}
+
+FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
+                                   const FitOptions& options, const RunContext& context) {
+  ColorSystem system(patches, picture, options.regularization, context);
+  FitReport report;
+  const ColorSystem::Vector correction = solve(system, options, context, report);
+  for_each_range(static_cast<int>(correction.size()), [&](int begin, int end) {
+    for (int w = begin; w < end; ++w) {
+      Wedge& wedge = patches.wedges[w];
+      wedge.value += correction[w].col(0).array();
+      wedge.dx += correction[w].col(1).array();
+      wedge.dy += correction[w].col(2).array();
+      wedge.twist += correction[w].col(3).array();
+    }
+  });
+  return report;
+}
+
+}  // namespace
+
+FitReport fit_colors(PatchMesh& patches, const Raster& picture, const FitOptions& options,
+                     const RunContext& context) {
+  check(patches, picture, options);
+  FitReport report;
+  tbb::task_arena arena(arena_size(context));
+  arena.execute([&] {
+    patches.opaque = !picture.has_alpha();
+    patches.wedges = bessel_wedges(patches, picture);
+    if (options.method == FitMethod::hermite) {
+      report = correct_by_least_squares(patches, picture, options, context);
+    }
+  });
+  context.progress("fit", 1);
+  return report;
+}
+
+PatchMesh fit_patches(QuadMesh mesh, const Raster& picture, const FitOptions& options,
+                      const RunContext& context) {
+  PatchMesh patches = straight_patches(std::move(mesh));
+  set_bessel_tangents(patches);
+  guard_folds(patches);
+  fit_colors(patches, picture, options, context);
+  return patches;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "fit_system.h"
+#include "quadrille/fit.h"
+
+namespace quadrille {
+
+/// Solves the system by conjugate gradients with a block-Jacobi preconditioner, all channels side
+/// by side (Saad, Iterative Methods for Sparse Linear Systems, algorithm 9.1). Stops when the
+/// residual, measured by the preconditioner over all channels, has fallen by options.tolerance.
+ColorSystem::Vector solve(ColorSystem& system, const FitOptions& options, const RunContext& context,
+                          FitReport& report);
+
+}  // namespace quadrille

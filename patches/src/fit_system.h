@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "fit_element.h"
+#include "quadrille/patch_mesh.h"
+#include "quadrille/raster.h"
+#include "quadrille/run_context.h"
+#include "wedge_corners.h"
+
+namespace quadrille {
+
+/// The normal equations of fitting a correction to the colours that a PatchMesh has: unknowns per
+/// wedge, one equation per pixel centre, element by element. It runs in the caller's tbb arena.
+class ColorSystem {
+ public:
+  using Vector = std::vector<WedgeUnknowns>;
+
+  /// Scans the picture. The correction is damped as if every square pixel had another equation of
+  /// weight `regularization` that asks for no correction.
+  ColorSystem(const PatchMesh& patches, const Raster& picture, double regularization,
+              const RunContext& context);
+
+  int wedge_count() const { return static_cast<int>(right_hand_side.size()); }
+
+  /// product = matrix * x; returns the dot products of the two per channel.
+  Eigen::Array4d multiply(const Vector& x, Vector& product);
+  /// The inverse of the wedge's own 4 x 4 block.
+  const Eigen::Matrix4f& inverse_block(int wedge) const { return inverse_blocks_[wedge]; }
+
+  Vector right_hand_side;
+
+ private:
+  void assemble(const PatchMesh& patches, const Raster& picture, double regularization,
+                const RunContext& context);
+  void invert_blocks();
+
+  std::vector<int> wedge_of_corner_;
+  WedgeCorners wedge_corners_;
+  std::vector<PatchElement> elements_;
+  std::vector<CornerUnknowns> scratch_;  // per patch
+  std::vector<Eigen::Matrix4f> inverse_blocks_;
+};
+
+}  // namespace quadrille

@@ -1,0 +1,148 @@
+#include "patch_lanes.h"
+
+#include <cstring>
+
+// Functions that work on lanes are compiled for several instruction sets, and the best one that the
+// machine has is chosen when the program starts. Sanitizers cannot start with such functions.
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define QUADRILLE_MULTIVERSION __attribute__((target_clones("avx2", "default")))
+#else
+#define QUADRILLE_MULTIVERSION
+#endif
+#define QUADRILLE_INLINE inline __attribute__((always_inline))
+
+namespace quadrille {
+namespace {
+
+using Lanes = float __attribute__((vector_size(4 * kLaneCount)));
+using Mask = int __attribute__((vector_size(4 * kLaneCount)));
+
+constexpr int kMaxNewtonSteps = 6;
+/// Newton's method converges quadratically: after a step of this length the parameters are good to
+/// about 1e-5.
+constexpr float kConvergedStep = 1e-3f;
+/// Parameters may end this far outside the square; the outline is scanned as a polyline.
+constexpr float kMargin = 0.02f;
+
+struct Surface {
+  Lanes value, du, dv;
+};
+
+QUADRILLE_INLINE void evaluate(const float* c, const Lanes& u, const Lanes& v, Surface& s) {
+  Lanes row[4], row_du[4];
+#pragma GCC unroll 4
+  for (int j = 0; j < 4; ++j) {
+    const Lanes b2 = c[4 * j + 3] * u + c[4 * j + 2];
+    const Lanes b1 = b2 * u + c[4 * j + 1];
+    row[j] = b1 * u + c[4 * j];
+    row_du[j] = (c[4 * j + 3] * u + b2) * u + b1;
+  }
+  const Lanes b2 = row[3] * v + row[2];
+  const Lanes b1 = b2 * v + row[1];
+  s.value = b1 * v + row[0];
+  s.du = ((row_du[3] * v + row_du[2]) * v + row_du[1]) * v + row_du[0];
+  s.dv = (row[3] * v + b2) * v + b1;
+}
+
+template <class T>
+QUADRILLE_INLINE void bicubic(const float* c, const T& u, const T& v, T& value) {
+  T row[4];
+#pragma GCC unroll 4
+  for (int j = 0; j < 4; ++j) {
+    row[j] = ((c[4 * j + 3] * u + c[4 * j + 2]) * u + c[4 * j + 1]) * u + c[4 * j];
+  }
+  value = ((row[3] * v + row[2]) * v + row[1]) * v + row[0];
+}
+
+template <class T>
+QUADRILLE_INLINE void clamp(T& x, const T& low, const T& high) {
+  x = x > low ? x : low;
+  x = x < high ? x : high;
+}
+
+template <class T>
+QUADRILLE_INLINE void colors(const PatchCoefficients& c, bool opaque, const T& u, const T& v,
+                             T (&color)[4]) {
+  const T zero = {}, one = zero + 1.0f;
+  color[3] = one;
+  if (!opaque) {
+    bicubic(c.color[3], u, v, color[3]);
+    clamp(color[3], zero, one);
+  }
+  for (int k = 0; k < 3; ++k) {
+    bicubic(c.color[k], u, v, color[k]);
+    clamp(color[k], zero, color[3]);
+  }
+}
+
+QUADRILLE_INLINE void absolute(const Lanes& x, Lanes& result) { result = x < 0 ? -x : x; }
+
+QUADRILLE_INLINE bool any(const Mask& mask) {
+  long long parts[sizeof(Mask) / sizeof(long long)], all = 0;
+  std::memcpy(parts, &mask, sizeof mask);
+  for (const long long part : parts) all |= part;
+  return all != 0;
+}
+
+QUADRILLE_INLINE void invert(const PatchCoefficients& c, const Lanes& x, const Lanes& y, Lanes& u,
+                             Lanes& v, Mask& found) {
+  const Lanes zero = {}, one = zero + 1.0f;
+  Lanes start[2];
+  for (int d = 0; d < 2; ++d) {
+    const float* const s = c.start[d];
+    start[d] = s[0] + s[1] * x + s[2] * y + (s[3] * x + s[4] * y) * x + s[5] * y * y;
+    clamp(start[d], zero, one);
+  }
+  u = start[0], v = start[1];
+  Mask active = zero == zero;
+  found = active ^ active;
+  for (int step = 0; step < kMaxNewtonSteps && any(active); ++step) {
+    Surface sx, sy;
+    evaluate(c.position[0], u, v, sx);
+    evaluate(c.position[1], u, v, sy);
+    const Lanes miss_x = x - sx.value, miss_y = y - sy.value;
+    const Lanes determinant = sx.du * sy.dv - sx.dv * sy.du;
+    const Lanes inverse = 1.0f / determinant;
+    const Lanes step_u = (miss_x * sy.dv - miss_y * sx.dv) * inverse;
+    const Lanes step_v = (sx.du * miss_y - sy.du * miss_x) * inverse;
+    u = active ? u + step_u : u;
+    v = active ? v + step_v : v;
+    Lanes length_u, length_v, off_u, off_v;
+    absolute(step_u, length_u);
+    absolute(step_v, length_v);
+    absolute(u - 0.5f, off_u);
+    absolute(v - 0.5f, off_v);
+    // A lane that leaves the neighbourhood of the square, or meets a fold, has failed.
+    const Mask sound = (determinant > 0) & (off_u < 1.0f) & (off_v < 1.0f);
+    const Mask small = length_u + length_v < kConvergedStep;
+    found |= active & sound & small & (off_u < 0.5f + kMargin) & (off_v < 0.5f + kMargin);
+    active &= sound & ~small;
+  }
+  clamp(u, zero, one);
+  clamp(v, zero, one);
+}
+
+}  // namespace
+
+QUADRILLE_MULTIVERSION
+void shade_lanes(const PatchCoefficients& c, bool opaque, const LaneBatch& batch) {
+  for (int i = 0; i < batch.count; i += kLaneCount) {
+    Lanes given_x, given_y, u, v, color[4];
+    std::memcpy(&given_x, batch.x + i, sizeof given_x);
+    std::memcpy(&given_y, batch.y + i, sizeof given_y);
+    const Lanes x = c.map[0][0] * given_x + c.map[0][1] * given_y + c.map[0][2];
+    const Lanes y = c.map[1][0] * given_x + c.map[1][1] * given_y + c.map[1][2];
+    Mask found;
+    invert(c, x, y, u, v, found);
+    colors(c, opaque, u, v, color);
+    for (int k = 0; k < 4; ++k) std::memcpy(batch.color[k] + i, &color[k], sizeof color[k]);
+    std::memcpy(batch.found + i, &found, sizeof found);
+  }
+}
+
+void shade_at(const PatchCoefficients& c, bool opaque, float u, float v, float (&color)[4]) {
+  colors(c, opaque, u, v, color);
+}
+
+}  // namespace quadrille
