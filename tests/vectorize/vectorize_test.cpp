@@ -129,6 +129,15 @@ TEST(Vectorize, SameImageForAnyNumberOfThreads) {
   EXPECT_EQ(vertices(3), one);
 }
 
+TEST(LatticeMesh, TilesTheRectangleWithAboutTheWishedCount) {
+  for (const auto [w, h] : {std::array{481, 321}, {321, 481}, {1000, 1}, {1, 1000}, {1, 1}}) {
+    const QuadMesh mesh = lattice_mesh(w, h, 3000);
+    EXPECT_TRUE(validate(mesh, w, h).empty());
+    EXPECT_NEAR(mesh.quad_count(), 3000, 60) << w << "x" << h;
+  }
+  EXPECT_EQ(lattice_mesh(481, 321, 3000).quad_count(), 67 * 45);
+}
+
 TEST(Vectorize, RefusesNonsense) { EXPECT_THROW(vectorize(Raster(4, 4, 3), {.quads = 0}), Error); }
 
 TEST(Vectorize, StopsWhenTheObserverSaysSo) {

@@ -31,11 +31,15 @@ QuadMesh lattice_mesh(double width, double height, int columns, int rows) {
 }
 
 QuadMesh lattice_mesh(double width, double height, int quads) {
-  const double edge = std::sqrt(width * height / std::max(1, quads));
-  const auto side = [&](double length) {
-    return std::clamp(static_cast<int>(std::lround(length / edge)), 1, std::max(1, quads));
-  };
-  return lattice_mesh(width, height, side(width), side(height));
+  const int wished = std::max(1, quads);
+  const double edge = std::sqrt(width * height / wished);
+  // The shorter side is rounded to squares, the longer one to the count.
+  const int across_short =
+      std::clamp(static_cast<int>(std::lround(std::min(width, height) / edge)), 1, wished);
+  const int along_long =
+      std::max(1, static_cast<int>(std::lround(static_cast<double>(wished) / across_short)));
+  return width < height ? lattice_mesh(width, height, across_short, along_long)
+                        : lattice_mesh(width, height, along_long, across_short);
 }
 
 }  // namespace quadrille

@@ -20,18 +20,22 @@ struct RasterFileOptions {
 };
 
 struct SvgOptions {
-  /// Largest colour error of a cell, in 8-bit steps: 8 compact, 4 balanced, 2 faithful.
+  /// Colour error of a cell in 8-bit steps, at most half of it in the root mean square and at most
+  /// twice of it anywhere: 8 compact, 4 balanced, 2 faithful.
   double tolerance = 4;
   std::string title = "Quadrille picture";
 };
 
 struct PdfOptions {
-  double dpi = 96;       ///< source pixels per inch; decides the page size
-  double tolerance = 2;  ///< largest colour error of a sub-patch, in 8-bit steps
+  double dpi = 96;  ///< source pixels per inch; decides the page size
+  /// Colour error of a sub-patch in 8-bit steps, at most half of it in the root mean square and at
+  /// most twice of it anywhere.
+  double tolerance = 4;
   std::string title = "Quadrille picture";
 };
 
 struct GltfOptions {
+  /// Size of the texture in texels per source pixel, > 0; reduced where a side would exceed 8192.
   double texels_per_pixel = 2;
 };
 
@@ -53,8 +57,15 @@ void write_svg(const VectorImage& image, const std::filesystem::path& path,
                const SvgOptions& options = {}, const RunContext& context = {});
 void write_pdf(const VectorImage& image, const std::filesystem::path& path,
                const PdfOptions& options = {}, const RunContext& context = {});
+/// Triangles without T-junctions under an unlit texture per layer. 1 unit = 1 pixel, x to the
+/// right, y up, the picture's bottom left corner at the origin; layer k lies at z = k. Throws
+/// Error{invalid_argument} for a picture without patches or texels_per_pixel out of range.
 void write_glb(const VectorImage& image, const std::filesystem::path& path,
                const GltfOptions& options = {}, const RunContext& context = {});
+/// One Bezier quadrilateral (VTK cell type 77) per patch, placed as in write_glb(). Point arrays:
+/// "color" (float RGB) or, with transparency, "color_premultiplied" (float RGBA) are the exact
+/// control values; "rgba" (bytes, straight) is what plain viewers show, approximate where control
+/// values leave 0..1. Cell arrays: "patch", "layer", "scaled_jacobian".
 void write_vtu(const VectorImage& image, const std::filesystem::path& path,
                const VtkOptions& options = {}, const RunContext& context = {});
 

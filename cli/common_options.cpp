@@ -1,0 +1,84 @@
+#include "common_options.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace quadrille::cli {
+
+Verbosity RunOptions::verbosity() const {
+  if (quiet) return Verbosity::quiet;
+  return verbose ? Verbosity::verbose : Verbosity::normal;
+}
+
+void declare_run_options(CLI::App& parser, RunOptions& options) {
+  parser
+      .add_option("--threads", options.threads,
+                  "worker threads, 0 for all of the machine's; the result never depends on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  CLI::Option* verbose =
+      parser.add_flag("-v,--verbose", options.verbose, "a line per stage on stderr");
+  parser.add_flag("-q,--quiet", options.quiet, "no progress bar, nothing but errors")
+      ->excludes(verbose);
+}
+
+VectorizeOptions MeshOptions::vectorize_options() const {
+  VectorizeOptions options;
+  options.quads = quads;
+  options.fit.method = fit == "bessel" ? FitMethod::bessel : FitMethod::hermite;
+  options.lattice = lattice;
+  return options;
+}
+
+void declare_quad_options(CLI::App& parser, MeshOptions& options) {
+  parser.add_option("--quads", options.quads, "wished number of quads, met within 10 %")
+      ->check(CLI::Range(1, kMaxQuads))
+      ->capture_default_str();
+  parser.add_flag("--lattice", options.lattice,
+                  "a plain axis-aligned lattice instead of the field-aligned mesh");
+}
+
+void declare_mesh_options(CLI::App& parser, MeshOptions& options) {
+  declare_quad_options(parser, options);
+  parser
+      .add_option("--fit", options.fit,
+                  "how colours are found: hermite (least squares over all pixels) or bessel "
+                  "(sampled at the vertices, as in the paper)")
+      ->check(CLI::IsMember({"bessel", "hermite"}))
+      ->capture_default_str();
+}
+
+void declare_input(CLI::App& parser, std::filesystem::path& input, const std::string& what) {
+  parser.add_option("IN", input, what)->required()->type_name("FILE");
+}
+
+void declare_outputs(CLI::App& parser, std::vector<std::filesystem::path>& outputs) {
+  parser
+      .add_option("-o,--output", outputs,
+                  "file to write; its ending chooses the format; may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+}
+
+void declare_output(CLI::App& parser, std::filesystem::path& output) {
+  parser.add_option("-o,--output", output, "picture to write; its ending chooses the format")
+      ->required()
+      ->type_name("FILE");
+}
+
+CLI::Validator positive_number() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good = error == std::errc() && end == text.data() + text.size() &&
+                          std::isfinite(value) && value > 0;
+        return good ? "" : fmt::format("'{}' is not a number above 0", text);
+      },
+      "POSITIVE", "positive number");
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,84 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "canvas.h"
+#include "command.h"
+#include "common_options.h"
+#include "output_files.h"
+#include "picture_input.h"
+#include "quadrille/error.h"
+#include "quadrille/raster_file.h"
+#include "stage_pictures.h"
+
+namespace quadrille::cli {
+namespace {
+
+struct InspectRequest {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  std::string stage;
+  double scale = 0;  // 0: chosen by the picture's size
+  MeshOptions mesh;
+  RunOptions run;
+};
+
+/// Enlarges small pictures until mesh lines and crosses can be told apart.
+double readable_scale(const Raster& picture) {
+  constexpr double kWishedSide = 1600;
+  return std::clamp(std::round(kWishedSide / std::max(picture.width, picture.height)), 1.0, 8.0);
+}
+
+int run_inspect(const InspectRequest& request) {
+  constexpr double kFade = 0.55;
+  check_outputs({request.output}, request.input, kRasterEndings);
+  Observer observer(request.run.verbosity(), request.run.threads);
+  const Raster picture = read_raster(request.input, observer);
+  const Quadrangulation stages =
+      quadrangulate(picture, request.mesh.vectorize_options(), observer.context());
+
+  const auto chosen = std::ranges::find(stage_pictures(), request.stage, &StagePicture::name);
+  if (chosen->needs_fields && stages.cross.z.data.empty()) {
+    throw Error(ErrorCode::degenerate_input,
+                fmt::format("there is no {} to draw: a plain lattice was used; ask for fewer quads "
+                            "or draw the stage quads",
+                            request.stage));
+  }
+
+  const Raster drawing = observer.stage("draw", [&] {
+    Canvas canvas(picture, request.scale > 0 ? request.scale : readable_scale(picture), kFade);
+    chosen->draw(canvas, stages);
+    return canvas.raster();
+  });
+  observer.stage("write", [&] { save_raster(drawing, request.output); });
+  tell_written(request.output, observer);
+  return kSuccess;
+}
+
+}  // namespace
+
+Action declare_inspect(CLI::App& parser) {
+  const auto request = std::make_shared<InspectRequest>();
+  std::vector<std::string> names;
+  std::string explanation = "what to draw:";
+  for (const StagePicture& stage : stage_pictures()) {
+    names.push_back(stage.name);
+    explanation += fmt::format("\n{} - {}", stage.name, stage.summary);
+  }
+  declare_input(parser, request->input, "picture");
+  declare_output(parser, request->output);
+  parser.add_option("--stage", request->stage, explanation)
+      ->required()
+      ->check(CLI::IsMember(names));
+  parser
+      .add_option("--scale", request->scale,
+                  "drawing pixels per source pixel; about 1600 pixels a side when absent")
+      ->check(positive_number());
+  declare_quad_options(parser, request->mesh);
+  declare_run_options(parser, request->run);
+  return [request] { return run_inspect(*request); };
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "observer.h"
+#include "quadrille/export.h"
+
+namespace quadrille::cli {
+
+/// Endings of the formats made of pixels.
+inline const std::vector<std::string> kRasterEndings = {".png",  ".jpg", ".jpeg",
+                                                        ".webp", ".tif", ".tiff"};
+
+/// The path's ending in lower case, with the dot.
+std::string ending_of(const std::filesystem::path& path);
+
+/// Refuses, before anything is computed, outputs whose ending is not among `endings`, whose folder
+/// is missing or closed to us, that are folders themselves, that are named twice, or that would
+/// overwrite the input. Throws Error{unsupported_format}, {io_failure} or {invalid_argument}.
+void check_outputs(const std::vector<std::filesystem::path>& outputs,
+                   const std::filesystem::path& input, const std::vector<std::string>& endings);
+
+/// Writes the image to every output in turn, each as a stage of its own. Titles come from the
+/// image's metadata, so that a document exports to the same bytes as the run that made it.
+void write_outputs(const VectorImage& image, const std::vector<std::filesystem::path>& outputs,
+                   ExportOptions options, Observer& observer);
+
+/// Tells the watcher about a finished file and its size.
+void tell_written(const std::filesystem::path& path, Observer& observer);
+
+}  // namespace quadrille::cli

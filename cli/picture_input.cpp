@@ -1,0 +1,48 @@
+#include "picture_input.h"
+
+#include <nlohmann/json.hpp>
+
+#include "output_files.h"
+#include "quadrille/document.h"
+#include "quadrille/image_file.h"
+#include "quadrille/render.h"
+
+namespace quadrille::cli {
+
+namespace fs = std::filesystem;
+
+bool is_document(const fs::path& path) { return ending_of(path) == ".quad"; }
+
+Raster read_raster(const fs::path& path, Observer& observer) {
+  return observer.stage("read", [&] {
+    return is_document(path) ? render(load_document(path), {}, observer.context())
+                             : load_image(path);
+  });
+}
+
+VectorImage read_vector_image(const fs::path& path, const MeshOptions& mesh, Observer& observer) {
+  if (is_document(path)) return observer.stage("read", [&] { return load_document(path); });
+  return vectorize_picture(read_raster(path, observer), path, mesh, observer).image;
+}
+
+Vectorization vectorize_picture(const Raster& picture, const fs::path& source,
+                                const MeshOptions& mesh, Observer& observer) {
+  Vectorization result = vectorize(picture, mesh.vectorize_options(), observer.context());
+  result.image.metadata["title"] = printable_name(source.stem());
+  result.image.metadata["source"] = printable_name(source);
+  return result;
+}
+
+std::string printable_name(const fs::path& path) {
+  using Json = nlohmann::json;
+  // Encoding replaces what is not UTF-8.
+  const std::string text =
+      Json(path.filename().string()).dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string name = Json::parse(text).get<std::string>();
+  for (char& c : name) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return name;
+}
+
+}  // namespace quadrille::cli

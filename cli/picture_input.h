@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+
+#include "common_options.h"
+#include "observer.h"
+#include "quadrille/raster.h"
+#include "quadrille/vector_image.h"
+
+namespace quadrille::cli {
+
+/// True for files that are read as `.quad` documents; all others are read as pictures.
+bool is_document(const std::filesystem::path& path);
+
+/// A picture's pixels; a document is drawn at scale 1.
+Raster read_raster(const std::filesystem::path& path, Observer& observer);
+
+/// A document's content; a picture is vectorized with the options.
+VectorImage read_vector_image(const std::filesystem::path& path, const MeshOptions& mesh,
+                              Observer& observer);
+
+/// Vectorizes a picture and notes in the metadata what the documents should remember of it.
+Vectorization vectorize_picture(const Raster& picture, const std::filesystem::path& source,
+                                const MeshOptions& mesh, Observer& observer);
+
+/// The file's name without its folder as valid, printable UTF-8.
+std::string printable_name(const std::filesystem::path& path);
+
+}  // namespace quadrille::cli

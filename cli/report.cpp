@@ -1,0 +1,100 @@
+#include "report.h"
+
+#include <sys/resource.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "picture_input.h"
+#include "quadrille/atomic_file.h"
+#include "quadrille/error.h"
+
+namespace quadrille::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+Json stages_of(const Observer& observer) {
+  Json stages = Json::array();
+  for (const StageReport& stage : observer.stages()) {
+    Json figures = Json::object();
+    for (const auto& [name, value] : stage.figures) figures[name] = value;
+    stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"figures", figures}});
+  }
+  return stages;
+}
+
+Json sizes_of(const std::vector<fs::path>& outputs) {
+  Json files = Json::array();
+  for (const fs::path& output : outputs) {
+    std::error_code ignored;
+    files.push_back({{"file", printable_name(output)}, {"bytes", fs::file_size(output, ignored)}});
+  }
+  return files;
+}
+
+double cpu_seconds(const rusage& usage) {
+  const auto seconds = [](const timeval& t) { return t.tv_sec + t.tv_usec * 1e-6; };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+}  // namespace
+
+Measurement measure(const VectorImage& image, const Raster& picture, Observer& observer) {
+  return observer.stage("measure", [&] {
+    return Measurement{compare(picture, render(image, {}, observer.context())),
+                       count_coverage(image, {}, observer.context())};
+  });
+}
+
+void write_report(const RunReport& report, const Observer& observer, const fs::path& path) {
+  const VectorizeReport& v = report.vectorization;
+  const ImageDifference& difference = report.measurement.difference;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+
+  const Json json = {
+      {"version", QUADRILLE_VERSION},
+      {"source", printable_name(report.source)},
+      {"width", v.width},
+      {"height", v.height},
+      {"options",
+       {{"quads", report.options.quads},
+        {"fit", report.options.fit},
+        {"lattice", report.options.lattice},
+        {"threads", observer.context().threads}}},
+      {"quads", v.quads},
+      {"vertices", v.vertices},
+      {"irregular_vertices", v.irregular_vertices},
+      {"singularities",
+       {{"positive", v.positive_singularities}, {"negative", v.negative_singularities}}},
+      {"misalignment_degrees", v.misalignment_degrees},
+      {"folded", v.folded},
+      {"fallback", v.fallback},
+      {"uncovered_pixels", report.measurement.coverage.uncovered},
+      {"doubly_covered_pixels", report.measurement.coverage.doubly_covered},
+      {"fit", {{"iterations", v.fit.iterations}, {"residual", v.fit.residual}}},
+      {"mae", difference.mae},
+      {"psnr", difference.psnr},
+      {"ssim", difference.ssim},
+      {"max_error", difference.max_error},
+      {"stages", stages_of(observer)},
+      {"outputs", sizes_of(report.outputs)},
+      {"seconds", report.seconds},
+      {"cpu_seconds", cpu_seconds(usage)},
+      {"peak_memory_mb", usage.ru_maxrss * 1024 / 1e6},
+  };
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+
+  write_atomically(path, [&](const fs::path& temporary) {
+    std::ofstream file(temporary, std::ios::binary);
+    file << text;
+    if (!file.flush()) {
+      throw Error(ErrorCode::io_failure,
+                  "cannot write the report '" + path.string() + "'; is the disk full?");
+    }
+  });
+}
+
+}  // namespace quadrille::cli

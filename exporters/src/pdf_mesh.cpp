@@ -1,0 +1,149 @@
+#include "pdf_mesh.h"
+
+#include <cairo-pdf.h>
+#include <cairo.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "quadrille/error.h"
+#include "subdivision.h"
+
+namespace quadrille {
+namespace {
+
+/// Points per inch of a PDF's user space.
+constexpr double kPointsPerInch = 72;
+/// At most this many sub-patches along each side of a patch.
+constexpr int kMaxDivisions = 16;
+/// Patches of one mesh pattern.
+constexpr int kChunk = 2048;
+
+struct SubPatch {
+  BicubicBezier<Eigen::Vector2d> position;
+  std::array<Color, 4> corner;  ///< straight colour
+};
+
+Color straight(const Color& premultiplied) {
+  const float alpha = std::clamp(premultiplied[3], 0.0f, 1.0f);
+  Color color = (premultiplied / std::max(alpha, 1e-3f)).cwiseMax(0.0f).cwiseMin(1.0f);
+  color[3] = alpha;
+  return color;
+}
+
+std::vector<SubPatch> divide(const Layer& layer, int quad, double tolerance) {
+  const BicubicBezier<Eigen::Vector2d> position = to_bezier(placed_geometry(layer, quad));
+  const BicubicBezier<Color> color = to_bezier(ferguson_patch(layer.patches, quad).color);
+  const Divisions count = bilinear_divisions(color, tolerance, kMaxDivisions);
+  std::vector<SubPatch> parts;
+  for (int j = 0; j < count.v; ++j) {
+    for (int i = 0; i < count.u; ++i) {
+      const ParameterBox box{double(i) / count.u, double(j) / count.v, double(i + 1) / count.u,
+                             double(j + 1) / count.v};
+      parts.push_back({sub_patch(position, box),
+                       {straight(color.at(box.u0, box.v0)), straight(color.at(box.u1, box.v0)),
+                        straight(color.at(box.u1, box.v1)), straight(color.at(box.u0, box.v1))}});
+    }
+  }
+  return parts;
+}
+
+void add_to_mesh(cairo_pattern_t* mesh, const SubPatch& part, bool opaque) {
+  const auto& p = part.position.control;
+  const auto curve = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                         const Eigen::Vector2d& end) {
+    cairo_mesh_pattern_curve_to(mesh, a.x(), a.y(), b.x(), b.y(), end.x(), end.y());
+  };
+  cairo_mesh_pattern_begin_patch(mesh);
+  cairo_mesh_pattern_move_to(mesh, p[0][0].x(), p[0][0].y());
+  curve(p[0][1], p[0][2], p[0][3]);
+  curve(p[1][3], p[2][3], p[3][3]);
+  curve(p[3][2], p[3][1], p[3][0]);
+  curve(p[2][0], p[1][0], p[0][0]);
+  cairo_mesh_pattern_set_control_point(mesh, 0, p[1][1].x(), p[1][1].y());
+  cairo_mesh_pattern_set_control_point(mesh, 1, p[1][2].x(), p[1][2].y());
+  cairo_mesh_pattern_set_control_point(mesh, 2, p[2][2].x(), p[2][2].y());
+  cairo_mesh_pattern_set_control_point(mesh, 3, p[2][1].x(), p[2][1].y());
+  for (int k = 0; k < 4; ++k) {
+    const Color& c = part.corner[k];
+    if (opaque) {
+      cairo_mesh_pattern_set_corner_color_rgb(mesh, k, c[0], c[1], c[2]);
+    } else {
+      cairo_mesh_pattern_set_corner_color_rgba(mesh, k, c[0], c[1], c[2], c[3]);
+    }
+  }
+  cairo_mesh_pattern_end_patch(mesh);
+}
+
+template <auto destroy>
+struct Destroyer {
+  template <class T>
+  void operator()(T* object) const {
+    destroy(object);
+  }
+};
+using Surface = std::unique_ptr<cairo_surface_t, Destroyer<cairo_surface_destroy>>;
+using Drawing = std::unique_ptr<cairo_t, Destroyer<cairo_destroy>>;
+using Pattern = std::unique_ptr<cairo_pattern_t, Destroyer<cairo_pattern_destroy>>;
+
+cairo_status_t append(void* target, const unsigned char* bytes, unsigned count) {
+  auto& all = *static_cast<std::vector<unsigned char>*>(target);
+  all.insert(all.end(), bytes, bytes + count);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+void require(cairo_status_t status) {
+  if (status == CAIRO_STATUS_SUCCESS) return;
+  throw Error(ErrorCode::io_failure, std::string("the PDF could not be drawn: ") +
+                                         cairo_status_to_string(status) +
+                                         "; export a smaller picture or another format");
+}
+
+void draw_layer(cairo_t* drawing, const Layer& layer, const PdfOptions& options,
+                const RunContext& context) {
+  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
+  const int count = layer.patches.patch_count();
+  for (int begin = 0; begin < count; begin += kChunk) {
+    const int end = std::min(begin + kChunk, count);
+    std::vector<std::vector<SubPatch>> divided(end - begin);
+    arena.execute([&] {
+      tbb::parallel_for(begin, end, [&](int q) {
+        divided[q - begin] = divide(layer, q, options.tolerance / 255);
+      });
+    });
+    const Pattern mesh(cairo_pattern_create_mesh());
+    for (const auto& parts : divided) {
+      for (const SubPatch& part : parts) add_to_mesh(mesh.get(), part, layer.patches.opaque);
+    }
+    require(cairo_pattern_status(mesh.get()));
+    cairo_set_source(drawing, mesh.get());
+    cairo_paint(drawing);
+    require(cairo_status(drawing));
+    context.progress("write PDF", double(end) / count);
+  }
+}
+
+}  // namespace
+
+std::vector<unsigned char> draw_pdf(const VectorImage& image, const PdfOptions& options,
+                                    const RunContext& context) {
+  std::vector<unsigned char> bytes;
+  const double scale = kPointsPerInch / options.dpi;
+  const Surface page(cairo_pdf_surface_create_for_stream(append, &bytes, image.width * scale,
+                                                         image.height * scale));
+  require(cairo_surface_status(page.get()));
+  {
+    const Drawing drawing(cairo_create(page.get()));
+    cairo_scale(drawing.get(), scale, scale);
+    for (const Layer& layer : image.layers) draw_layer(drawing.get(), layer, options, context);
+    cairo_show_page(drawing.get());
+    require(cairo_status(drawing.get()));
+  }
+  cairo_surface_finish(page.get());
+  require(cairo_surface_status(page.get()));
+  return bytes;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <unordered_map>
+
+#include "svg_gradient.h"
+#include "svg_path.h"
+
+namespace quadrille {
+
+/// Writes cells as SVG paths. Successive cells of one flat colour become one path, equal gradients
+/// one element.
+class SvgCellWriter {
+ public:
+  explicit SvgCellWriter(std::ostream& out) : out_(out) {}
+  void add(const SvgOutline& outline, const GradientFill& fill);
+  /// Ends the open path; to be called before anything else is written to the stream.
+  void finish();
+
+ private:
+  std::string gradient_id(const GradientFill& fill, const Eigen::AlignedBox2d& bounds);
+
+  std::ostream& out_;
+  std::string flat_color_;  ///< of the open path; empty when there is none
+  SvgPathData flat_path_;
+  std::unordered_map<std::string, std::string> gradients_;  ///< definition to identifier
+  long long gradient_count_ = 0;
+};
+
+}  // namespace quadrille

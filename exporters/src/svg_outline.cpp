@@ -1,0 +1,242 @@
+#include "svg_outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace quadrille {
+namespace {
+
+using Eigen::Vector2d;
+using Geometry = BicubicHermite<Vector2d>;
+
+/// Farthest that a straight line may be from the curve it stands for, in pixels: along the outline
+/// of the mesh and tears, along seams of smooth colour, and where later cells hide it.
+constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.25, kHiddenFlatness = 0.5;
+
+/// Parameters of the point at `s` along side k of the patch, `depth` inside of it.
+Vector2d on_side(int k, double s, double depth) {
+  switch (k) {
+    case 0:
+      return {s, depth};
+    case 1:
+      return {1 - depth, s};
+    case 2:
+      return {1 - s, 1 - depth};
+    default:
+      return {depth, 1 - s};
+  }
+}
+
+Vector2d at(const Geometry& g, const Vector2d& uv) { return g.at(uv.x(), uv.y()); }
+
+/// How far the parameter may run from uv, across lines of constant u (or v), to cover `distance`
+/// pixels; at most 1.
+double parameter_step(const Geometry& g, const Vector2d& uv, bool along_u, double distance) {
+  const Vector2d du = g.derivative_u(uv.x(), uv.y()), dv = g.derivative_v(uv.x(), uv.y());
+  const double area = std::abs(du.x() * dv.y() - du.y() * dv.x());
+  const double other = along_u ? dv.norm() : du.norm();
+  return area > distance * other ? distance * other / area : 1;
+}
+
+/// The point `distance` pixels inside side k at `s`.
+Vector2d inside(const Geometry& g, int k, double s, double distance) {
+  const double depth = parameter_step(g, on_side(k, s, 0), k == 1 || k == 3, distance);
+  return at(g, on_side(k, s, depth));
+}
+
+class OutlineBuilder {
+ public:
+  OutlineBuilder(const SvgLayer& layer, int quad, const ParameterBox& cell, double bleed)
+      : layer_(layer),
+        quad_(quad),
+        cell_(cell),
+        bleed_(bleed),
+        geometry_(layer.geometry(quad)),
+        bezier_(to_bezier(geometry_)) {
+    for (int k = 0; k < 4; ++k) later_[k] = layer_.is_painted_later(4 * quad + k);
+    grow_within_patch();
+  }
+
+  SvgOutline build() {
+    const BicubicBezier<Vector2d> part = sub_patch(bezier_, box_);
+    for (int k = 0; k < 4; ++k) {
+      add_corner(k);
+      if (has_flange(k)) {
+        add_flange(k);
+      } else {
+        add_side(k, side_curve(part, k));
+      }
+    }
+    outline_.pieces.erase(outline_.pieces.begin());
+    return std::move(outline_);
+  }
+
+ private:
+  /// Cells of one patch are painted from low to high parameters.
+  void grow_within_patch() {
+    box_ = cell_;
+    const Vector2d middle(0.5 * (cell_.u0 + cell_.u1), 0.5 * (cell_.v0 + cell_.v1));
+    const double step_u = parameter_step(geometry_, {cell_.u1, middle.y()}, true, bleed_);
+    const double step_v = parameter_step(geometry_, {middle.x(), cell_.v1}, false, bleed_);
+    if (cell_.u1 < 1) box_.u1 = std::min(1.0, cell_.u1 + step_u);
+    if (cell_.v1 < 1) box_.v1 = std::min(1.0, cell_.v1 + step_v);
+  }
+
+  bool on_border(int k) const {
+    switch (k) {
+      case 0:
+        return box_.v0 == 0;
+      case 1:
+        return box_.u1 == 1;
+      case 2:
+        return box_.v1 == 1;
+      default:
+        return box_.u0 == 0;
+    }
+  }
+  bool has_flange(int k) const { return on_border(k) && later_[k]; }
+  bool is_hidden(int k) const {
+    return !on_border(k) && ((k == 1 && box_.u1 > cell_.u1) || (k == 2 && box_.v1 > cell_.v1));
+  }
+  bool is_smooth_seam(int k) const {
+    if (!on_border(k)) return true;
+    const int h = 4 * quad_ + k;
+    return layer_.mesh().twin(h) >= 0 && !layer_.mesh().is_tear(layer_.mesh().edge(h));
+  }
+
+  /// Range of side k's own parameter, which runs from corner k to corner k + 1.
+  std::array<double, 2> side_range(int k) const {
+    switch (k) {
+      case 0:
+        return {box_.u0, box_.u1};
+      case 1:
+        return {box_.v0, box_.v1};
+      case 2:
+        return {1 - box_.u1, 1 - box_.u0};
+      default:
+        return {1 - box_.v1, 1 - box_.v0};
+    }
+  }
+
+  void add_side(int k, const PlaneCurve& curve) {
+    const double flatness = is_hidden(k)        ? kHiddenFlatness
+                            : is_smooth_seam(k) ? kSeamFlatness
+                                                : kExactFlatness;
+    add_point(curve[0]);
+    if (chord_distance(curve) <= flatness) {
+      add_point(curve[3]);
+    } else {
+      outline_.pieces.push_back({false, curve[1], curve[2], curve[3]});
+    }
+  }
+
+  /// The far side of a strip of the later patch beyond side k, without its ends.
+  void add_flange(int k) {
+    const auto [first, last] = side_range(k);
+    const PlaneCurve seam = sub_curve(side_curve(bezier_, k), first, last);
+    const int parts =
+        static_cast<int>(std::ceil(std::sqrt(chord_distance(seam) / kHiddenFlatness)));
+    for (int i = 1; i < parts; ++i) add_point(beyond(k, first + (last - first) * i / parts));
+  }
+
+  /// The point `bleed` beyond side k at s, in the patch on its other side.
+  Vector2d beyond(int k, double s) const {
+    const int twin = layer_.mesh().twin(4 * quad_ + k);
+    return inside(layer_.geometry(QuadMesh::quad_of(twin)), QuadMesh::corner_of(twin), 1 - s,
+                  bleed_);
+  }
+
+  /// Joins side k - 1 to side k where one of them has a flange.
+  void add_corner(int k) {
+    const int before = (k + 3) & 3;
+    const bool from_flange = has_flange(before), to_flange = has_flange(k);
+    if (!from_flange && !to_flange) return;
+    if (!on_border(before) || !on_border(k)) {  // inside a side of the patch
+      add_point(from_flange ? beyond(before, side_range(before)[1]) : beyond(k, side_range(k)[0]));
+      return;
+    }
+    const int h = 4 * quad_ + k;
+    if (from_flange && walk_around(h, true)) return;
+    add_point(geometry_.value[k]);
+    if (to_flange) walk_around(h, false);
+  }
+
+  /// Adds the end of a flange and goes on around the origin of half-edge h of this patch as long as
+  /// the patches there are painted later: `forward` from the flange on side k - 1 away from this
+  /// patch, otherwise against the outline's order from the flange on side k. True when the walk led
+  /// all the way round, which joins the two flanges.
+  bool walk_around(int h, bool forward) {
+    std::vector<Vector2d> points;
+    bool closed = false;
+    int at_vertex = step(h, forward);
+    for (bool first = true;; first = false) {
+      const Geometry g = layer_.geometry(QuadMesh::quad_of(at_vertex));
+      const int corner = QuadMesh::corner_of(at_vertex);
+      const int across = step(at_vertex, forward);
+      closed = across >= 0 && QuadMesh::quad_of(across) == quad_;
+      if (closed) break;
+      if (!first) points.push_back(diagonal(g, corner));
+      const bool goes_on = across >= 0 && layer_.is_painted_later(quad_, QuadMesh::quad_of(across));
+      const bool closes_next = goes_on && first && meets_again(across, forward);
+      if (!goes_on || closes_next) points.push_back(far_edge(g, corner, forward));
+      if (!goes_on) break;
+      at_vertex = across;
+    }
+    if (!forward) std::reverse(points.begin(), points.end());
+    for (const Vector2d& p : points) add_point(p);
+    return closed;
+  }
+
+  /// True when the step after half-edge h leads back to this patch.
+  bool meets_again(int h, bool forward) const {
+    const int across = step(h, forward);
+    return across >= 0 && QuadMesh::quad_of(across) == quad_;
+  }
+
+  /// The next half-edge that leaves the same vertex, or -1 at the border of the mesh: forward
+  /// across the previous side of its quad, backward across its own.
+  int step(int h, bool forward) const {
+    const QuadMesh& mesh = layer_.mesh();
+    if (forward) return mesh.twin(QuadMesh::prev(h));
+    const int twin = mesh.twin(h);
+    return twin < 0 ? -1 : QuadMesh::next(twin);
+  }
+
+  /// The point `bleed` away from both sides at a corner.
+  Vector2d diagonal(const Geometry& g, int corner) const {
+    const Vector2d uv = on_side(corner, 0, 0);
+    const double step_u = parameter_step(g, uv, true, bleed_);
+    const double step_v = parameter_step(g, uv, false, bleed_);
+    return at(g, {uv.x() + (uv.x() > 0.5 ? -step_u : step_u),
+                  uv.y() + (uv.y() > 0.5 ? -step_v : step_v)});
+  }
+
+  /// The point `bleed` along the side on which the walk leaves the patch.
+  Vector2d far_edge(const Geometry& g, int corner, bool forward) const {
+    if (forward) return inside(g, corner, 0, bleed_);
+    return inside(g, (corner + 3) & 3, 1, bleed_);
+  }
+
+  void add_point(const Vector2d& p) {
+    if (outline_.pieces.empty()) outline_.start = p;
+    outline_.pieces.push_back({true, p, p, p});
+  }
+
+  const SvgLayer& layer_;
+  int quad_;
+  ParameterBox cell_, box_;
+  double bleed_;
+  Geometry geometry_;
+  BicubicBezier<Vector2d> bezier_;
+  std::array<bool, 4> later_;
+  SvgOutline outline_;
+};
+
+}  // namespace
+
+SvgOutline cell_outline(const SvgLayer& layer, int quad, const ParameterBox& cell, double bleed) {
+  return OutlineBuilder(layer, quad, cell, bleed).build();
+}
+
+}  // namespace quadrille

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "svg_outline.h"
+
+namespace quadrille {
+
+/// Path data of outlines with coordinates as integers, in units of 1 / kUnitsPerPixel pixel.
+class SvgPathData {
+ public:
+  static constexpr int kUnitsPerPixel = 10;
+
+  /// Appends one closed subpath.
+  void append(const SvgOutline& outline);
+  const std::string& text() const { return text_; }
+  /// Tight bounds of the subpaths as written, in pixels: what objectBoundingBox refers to.
+  Eigen::AlignedBox2d bounds() const;
+
+ private:
+  using Point = Eigen::Matrix<long long, 2, 1>;
+
+  void write(char command, std::initializer_list<Point> points);
+  void write_number(long long number, bool separate);
+  void line_to(const Point& target);
+  void cubic_to(const Point& control1, const Point& control2, const Point& end);
+
+  std::string text_;
+  char command_ = 0;
+  Point at_ = Point::Zero();
+  Eigen::AlignedBox2d bounds_;
+};
+
+}  // namespace quadrille

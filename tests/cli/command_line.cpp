@@ -1,0 +1,54 @@
+#include "command_line.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "support/programs.h"
+
+namespace quadrille::test {
+
+namespace fs = std::filesystem;
+
+CommandResult quadrille(const std::vector<std::string>& arguments) {
+  const fs::path err = scratch_dir() / "stderr.txt";
+  std::vector<std::string> argv = {"sh", "-c",         "err=$1; shift; exec \"$@\" 2>\"$err\"",
+                                   "sh", err.string(), QUADRILLE_COMMAND};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  CommandResult result;
+  result.exit_code = run(argv, &result.out);
+  result.err = bytes_of(err);
+  return result;
+}
+
+std::string sample(const std::string& name) {
+  return std::string(QUADRILLE_SOURCE_DIR) + "/samples/" + name;
+}
+
+fs::path fresh_folder(const std::string& name) {
+  const fs::path folder = scratch_dir() / name;
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+bool is_one_complaint(const std::string& err) {
+  return err.starts_with("quadrille: ") && err.ends_with('\n') &&
+         std::ranges::count(err, '\n') == 1;
+}
+
+}  // namespace quadrille::test

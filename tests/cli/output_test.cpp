@@ -1,0 +1,260 @@
+// What the sub-commands write, read back through the library.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "command_line.h"
+#include "quadrille/document.h"
+#include "quadrille/export.h"
+#include "quadrille/image_file.h"
+#include "quadrille/metrics.h"
+
+namespace quadrille::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// The arguments -o folder/picture.ending for every format of this build.
+std::vector<std::string> every_output(const fs::path& folder) {
+  std::vector<std::string> arguments;
+  for (const std::string& ending : export_endings()) {
+    arguments.insert(arguments.end(), {"-o", (folder / ("picture" + ending)).string()});
+  }
+  return arguments;
+}
+
+std::vector<std::string> join(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+void expect_silent_success(const CommandResult& result) {
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "");  // no progress bar in a pipe
+}
+
+void expect_same_files(const fs::path& a, const fs::path& b) {
+  ASSERT_EQ(files_in(a), files_in(b));
+  for (const std::string& name : files_in(a)) {
+    EXPECT_TRUE(bytes_of(a / name) == bytes_of(b / name)) << name << " differs";
+  }
+}
+
+class Output : public testing::Test {
+ protected:
+  static const std::string& picture() {
+    static const std::string path = sample("formats/coast_progressive.jpg");
+    return path;
+  }
+  /// A document of the picture, made once.
+  static const std::string& document() {
+    static const std::string path = [] {
+      const fs::path file = fresh_folder("document_of_coast") / "coast.quad";
+      expect_silent_success(quadrille({picture(), "-o", file.string(), "--quads", "200"}));
+      return file.string();
+    }();
+    return path;
+  }
+};
+
+TEST_F(Output, EveryFormatIsTheSameForAnyThreadCountAndFromTheDocument) {
+  const fs::path first = fresh_folder("threads_1");
+  expect_silent_success(quadrille(
+      join({"vectorize", picture(), "--quads", "200", "--threads", "1"}, every_output(first))));
+  EXPECT_EQ(files_in(first).size(), export_endings().size());
+
+  for (const std::string threads : {"2", "3"}) {
+    const fs::path other = fresh_folder("threads_" + threads);
+    expect_silent_success(quadrille(join(
+        {"vectorize", picture(), "--quads", "200", "--threads", threads}, every_output(other))));
+    expect_same_files(first, other);
+  }
+
+  const fs::path exported = fresh_folder("exported");
+  expect_silent_success(
+      quadrille(join({"export", (first / "picture.quad").string()}, every_output(exported))));
+  expect_same_files(first, exported);
+}
+
+TEST_F(Output, ShortFormIsVectorize) {
+  const fs::path folder = fresh_folder("short");
+  expect_silent_success(quadrille(
+      {"vectorize", picture(), "-o", (folder / "coast.quad").string(), "--quads", "200"}));
+  EXPECT_TRUE(bytes_of(folder / "coast.quad") == bytes_of(document()));
+}
+
+TEST_F(Output, TheDocumentHasTheWishedSize) {
+  const VectorImage image = load_document(document());
+  EXPECT_NEAR(image.patch_count(), 200, 20);
+  EXPECT_EQ(image.metadata.at("source"), "coast_progressive.jpg");
+}
+
+TEST_F(Output, EndingsMayBeInUpperCase) {
+  const fs::path folder = fresh_folder("upper");
+  expect_silent_success(quadrille({"export", document(), "-o", (folder / "A.PNG").string()}));
+  EXPECT_EQ(load_image(folder / "A.PNG").width, 250);
+}
+
+TEST_F(Output, ScaleSetsTheSizeOfPixelFormats) {
+  const fs::path folder = fresh_folder("scale");
+  expect_silent_success(
+      quadrille({"export", document(), "-o", (folder / "a.png").string(), "--scale", "1.5"}));
+  EXPECT_EQ(load_image(folder / "a.png").width, 375);
+  expect_silent_success(
+      quadrille({"render", document(), "-o", (folder / "b.png").string(), "--width", "375"}));
+  EXPECT_TRUE(bytes_of(folder / "a.png") == bytes_of(folder / "b.png"));
+}
+
+TEST_F(Output, ARegionIsTheCropOfTheWhole) {
+  const fs::path folder = fresh_folder("region");
+  const std::string whole = (folder / "whole.png").string();
+  const std::string part = (folder / "part.png").string();
+  expect_silent_success(
+      quadrille({"render", document(), "-o", whole, "--scale", "3", "--bits", "16"}));
+  expect_silent_success(quadrille({"render", document(), "-o", part, "--scale", "3", "--bits", "16",
+                                   "--region", "101,37,60,50"}));
+  EXPECT_EQ(load_image(part), crop(load_image(whole), 101, 37, 60, 50));
+
+  const CommandResult outside =
+      quadrille({"render", document(), "-o", part, "--scale", "3", "--region", "700,0,60,50"});
+  EXPECT_EQ(outside.exit_code, 1);
+  EXPECT_THAT(outside.err, HasSubstr("750 x 750"));
+}
+
+TEST_F(Output, RenderTakesAPictureToo) {
+  const fs::path folder = fresh_folder("render_picture");
+  expect_silent_success(
+      quadrille({"render", picture(), "-o", (folder / "a.png").string(), "--quads", "200"}));
+  expect_silent_success(quadrille({"render", document(), "-o", (folder / "b.png").string()}));
+  EXPECT_TRUE(bytes_of(folder / "a.png") == bytes_of(folder / "b.png"));
+}
+
+TEST_F(Output, CompareMeasuresAndDecides) {
+  const CommandResult same = quadrille({"compare", picture(), picture(), "--max-mae", "0"});
+  EXPECT_EQ(same.exit_code, 0);
+  EXPECT_EQ(same.out, "MAE  0.0000\nPSNR 99.000 dB\nSSIM 1.00000\n");
+
+  const fs::path rendered = fresh_folder("compare") / "coast.png";
+  expect_silent_success(quadrille({"render", document(), "-o", rendered.string()}));
+  const ImageDifference expected = compare(load_image(picture()), load_image(rendered));
+  const CommandResult json = quadrille({"compare", picture(), rendered.string(), "--json"});
+  const auto values = nlohmann::json::parse(json.out);
+  EXPECT_DOUBLE_EQ(values["mae"], expected.mae);
+  EXPECT_DOUBLE_EQ(values["psnr"], expected.psnr);
+  EXPECT_DOUBLE_EQ(values["ssim"], expected.ssim);
+
+  const CommandResult above =
+      quadrille({"compare", picture(), rendered.string(), "--max-mae", "0.01"});
+  EXPECT_EQ(above.exit_code, 1);
+  EXPECT_TRUE(is_one_complaint(above.err)) << above.err;
+
+  const CommandResult sizes = quadrille({"compare", picture(), sample("formats/one_pixel.png")});
+  EXPECT_EQ(sizes.exit_code, 1);
+  EXPECT_THAT(sizes.err, HasSubstr("250 x 250"));
+}
+
+TEST_F(Output, TheReportTellsEverything) {
+  const fs::path folder = fresh_folder("report");
+  const fs::path file = folder / "report.json";
+  expect_silent_success(quadrille({picture(), "-o", (folder / "a.svg").string(), "--quads", "200",
+                                   "--fit", "bessel", "--report", file.string()}));
+  const auto report = nlohmann::json::parse(bytes_of(file));
+  EXPECT_EQ(report["source"], "coast_progressive.jpg");
+  EXPECT_EQ(report["width"], 250);
+  EXPECT_EQ(report["height"], 250);
+  EXPECT_EQ(report["options"]["quads"], 200);
+  EXPECT_EQ(report["options"]["fit"], "bessel");
+  EXPECT_NEAR(report["quads"].get<int>(), 200, 20);
+  EXPECT_EQ(report["folded"], 0);
+  EXPECT_EQ(report["fallback"], false);
+  EXPECT_EQ(report["uncovered_pixels"], 0);
+  EXPECT_EQ(report["doubly_covered_pixels"], 0);
+  EXPECT_EQ(report["outputs"][0]["file"], "a.svg");
+  EXPECT_EQ(report["outputs"][0]["bytes"], fs::file_size(folder / "a.svg"));
+  EXPECT_GT(report["peak_memory_mb"].get<double>(), 1);
+  for (const char* number : {"vertices", "irregular_vertices", "misalignment_degrees", "mae",
+                             "psnr", "ssim", "seconds", "cpu_seconds"}) {
+    EXPECT_TRUE(report[number].is_number()) << number;
+  }
+  EXPECT_TRUE(report["singularities"]["positive"].is_number());
+  EXPECT_TRUE(report["singularities"]["negative"].is_number());
+  ASSERT_FALSE(report["stages"].empty());
+  for (const auto& stage : report["stages"]) EXPECT_GE(stage["seconds"].get<double>(), 0);
+}
+
+TEST_F(Output, TheLatticeHasNoIrregularVertex) {
+  const fs::path folder = fresh_folder("lattice");
+  expect_silent_success(quadrille({picture(), "-o", (folder / "a.quad").string(), "--quads", "200",
+                                   "--lattice", "--report", (folder / "r.json").string()}));
+  const auto report = nlohmann::json::parse(bytes_of(folder / "r.json"));
+  EXPECT_EQ(report["irregular_vertices"], 0);
+  EXPECT_EQ(report["options"]["lattice"], true);
+}
+
+TEST_F(Output, VerboseTellsAStageALine) {
+  const fs::path folder = fresh_folder("verbose");
+  const CommandResult result =
+      quadrille({picture(), "-o", (folder / "a.svg").string(), "--quads", "200", "-v"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "");
+  for (const char* stage : {"read", "cross field", "write .svg", "MAE"}) {
+    EXPECT_THAT(result.err, HasSubstr(stage));
+  }
+  EXPECT_EQ(result.err.find('\r'), std::string::npos);
+}
+
+class Inspect : public testing::TestWithParam<std::string> {};
+
+TEST_P(Inspect, DrawsTheStage) {
+  const fs::path file = fresh_folder("inspect_" + GetParam()) / "stage.png";
+  expect_silent_success(
+      quadrille({"inspect", sample("formats/coast_progressive.jpg"), "--stage", GetParam(), "-o",
+                 file.string(), "--quads", "200", "--scale", "2"}));
+  const Raster drawing = load_image(file);
+  EXPECT_EQ(drawing.width, 500);
+  EXPECT_EQ(drawing.height, 500);
+  int dark = 0;  // strokes and tints on the faded picture
+  for (int y = 0; y < drawing.height; ++y) {
+    for (int x = 0; x < drawing.width; ++x) {
+      const float* p = drawing.pixel(x, y);
+      dark += std::min({p[0], p[1], p[2]}) < 0.45f;
+    }
+  }
+  EXPECT_GT(dark, 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stages, Inspect,
+                         testing::Values("feature", "cross-field", "scale", "position", "quads",
+                                         "patches"),
+                         [](const auto& stage) {
+                           std::string name = stage.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+TEST(InspectLattice, HasNoFieldsToDraw) {
+  const fs::path folder = fresh_folder("inspect_lattice");
+  const CommandResult result =
+      quadrille({"inspect", sample("formats/coast_progressive.jpg"), "--stage", "cross-field",
+                 "--lattice", "-o", (folder / "a.png").string()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(is_one_complaint(result.err)) << result.err;
+}
+
+TEST(TinyPictures, GoThroughInEveryFormat) {
+  for (const char* name : {"one_pixel.png", "row_1000x1.png", "fully_transparent.png"}) {
+    SCOPED_TRACE(name);
+    const fs::path folder = fresh_folder("tiny");
+    expect_silent_success(quadrille(join({sample(std::string("formats/") + name), "--quads", "200",
+                                          "--report", (folder / "r.json").string()},
+                                         every_output(folder))));
+    EXPECT_EQ(files_in(folder).size(), export_endings().size() + 1);
+  }
+}
+
+}  // namespace
+}  // namespace quadrille::test

@@ -1,0 +1,114 @@
+// Files that cannot be read or written: one line on stderr, exit code 1, nothing left behind.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command_line.h"
+#include "support/programs.h"
+
+namespace quadrille::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+void expect_refused(const CommandResult& result, const std::string& word) {
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(is_one_complaint(result.err)) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(word));
+}
+
+TEST(Refusal, BadPicturesGetTheirVerdict) {
+  std::ifstream file(sample("manifest.json"));
+  for (const auto& entry : nlohmann::json::parse(file)["files"]) {
+    const std::string name = entry["file"];
+    if (!name.starts_with("bad/")) continue;
+    const fs::path folder = fresh_folder("bad");
+    const CommandResult result = quadrille(
+        {"vectorize", sample(name), "-o", (folder / "out.svg").string(), "--quads", "20"});
+    if (entry["expect"] != "error" && result.exit_code == 0) {  // the manifest allows either
+      EXPECT_EQ(result.err, "") << name;
+      continue;
+    }
+    SCOPED_TRACE(name);
+    expect_refused(result, fs::path(name).filename().string());
+    EXPECT_THAT(files_in(folder), IsEmpty());
+  }
+}
+
+TEST(Refusal, MissingPicture) {
+  const fs::path folder = fresh_folder("missing");
+  expect_refused(quadrille({"nowhere.png", "-o", (folder / "a.svg").string()}), "nowhere.png");
+  EXPECT_THAT(files_in(folder), IsEmpty());
+}
+
+TEST(Refusal, OutputsAreCheckedBeforeTheInputIsRead) {
+  const fs::path folder = fresh_folder("outputs");
+  const std::string good = (folder / "a.svg").string();
+  const std::string unread = (folder / "nowhere.png").string();
+  expect_refused(quadrille({unread, "-o", good, "-o", (folder / "a.xyz").string()}), "a.xyz");
+  expect_refused(quadrille({unread, "-o", (folder / "noending").string()}), "noending");
+  expect_refused(quadrille({unread, "-o", good, "-o", (folder / "no/a.svg").string()}), "no/a.svg");
+  expect_refused(quadrille({unread, "-o", good, "-o", good}), "twice");
+  expect_refused(quadrille({unread, "-o", good, "--report", (folder / "no/r.json").string()}),
+                 "r.json");
+  expect_refused(quadrille({"render", unread, "-o", good}), "a.svg");
+  fs::create_directory(folder / "folder.svg");
+  expect_refused(quadrille({unread, "-o", (folder / "folder.svg").string()}), "folder.svg");
+  EXPECT_THAT(files_in(folder), ElementsAre("folder.svg"));
+}
+
+TEST(Refusal, TheInputIsNeverOverwritten) {
+  const fs::path folder = fresh_folder("overwrite");
+  const fs::path picture = folder / "one.png";
+  fs::copy_file(sample("formats/one_pixel.png"), picture);
+  expect_refused(quadrille({picture.string(), "-o", picture.string()}), "overwrite");
+  EXPECT_EQ(bytes_of(picture), bytes_of(sample("formats/one_pixel.png")));
+}
+
+TEST(Refusal, NotADocument) {
+  const fs::path folder = fresh_folder("document");
+  std::ofstream(folder / "text.quad") << "hello";
+  expect_refused(
+      quadrille({"export", (folder / "text.quad").string(), "-o", (folder / "a.svg").string()}),
+      "text.quad");
+  EXPECT_THAT(files_in(folder), ElementsAre("text.quad"));
+}
+
+TEST(Refusal, TooLargeAScaleIsRefusedBeforeTheWork) {
+  const fs::path folder = fresh_folder("scale");
+  expect_refused(quadrille({sample("formats/uniform_gray.png"), "-o", (folder / "a.png").string(),
+                            "--scale", "1e12"}),
+                 "");
+  EXPECT_THAT(files_in(folder), IsEmpty());
+}
+
+TEST(Refusal, AMessageIsOneLineWhateverTheName) {
+  expect_refused(quadrille({"no\nsuch\tpicture.png", "-o", (scratch_dir() / "a.svg").string()}),
+                 "picture.png");
+}
+
+TEST(Refusal, AnInterruptedRunLeavesNothing) {
+  const fs::path folder = fresh_folder("interrupt");
+  const fs::path log = scratch_dir() / "interrupt.txt";
+  // Waits for the first finished stage, so that the signal arrives in the middle of the work.
+  const std::string script =
+      "log=$1; shift; \"$@\" 2>\"$log\" & pid=$!; "
+      "until grep -q read \"$log\"; do sleep 0.02; done; kill -TERM $pid; wait $pid";
+  fs::remove(log);
+  std::ofstream{log};
+  const int exit_code = run({"sh", "-c", script, "sh", log.string(), QUADRILLE_COMMAND,
+                             sample("formats/exif_portrait_8.jpg"), "-o",
+                             (folder / "a.svg").string(), "--quads", "60000", "-v"});
+  EXPECT_EQ(exit_code, 128 + 15);
+  EXPECT_THAT(bytes_of(log), HasSubstr("quadrille: cancelled"));
+  EXPECT_THAT(files_in(folder), IsEmpty());
+}
+
+}  // namespace
+}  // namespace quadrille::test

@@ -1,0 +1,211 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "quadrille/error.h"
+#include "quadrille/export.h"
+#include "quadrille/image_file.h"
+#include "quadrille/metrics.h"
+#include "quadrille/render.h"
+#include "support/programs.h"
+#include "support/random_patches.h"
+
+namespace quadrille {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+fs::path output(const std::string& name) { return test::scratch_dir() / name; }
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The file as librsvg draws it, on nothing.
+Raster drawn_by_librsvg(const fs::path& svg, const std::array<int, 2>& size) {
+  const fs::path png = fs::path(svg).replace_extension(".png");
+  std::string log;
+  EXPECT_EQ(test::run({"rsvg-convert", "--unlimited", "-w", std::to_string(size[0]), "-h",
+                       std::to_string(size[1]), "-o", png, svg},
+                      &log),
+            0)
+      << log;
+  return load_image(png);
+}
+
+Raster over_nothing(const VectorImage& image, double scale) {
+  RenderOptions options;
+  options.scale = scale;
+  return render(image, options);
+}
+
+/// Writes the picture and compares what librsvg makes of it with our own rendering.
+ImageDifference difference(const VectorImage& image, double scale, const std::string& name,
+                           const SvgOptions& options = {}) {
+  const fs::path svg = output(name + ".svg");
+  write_svg(image, svg, options);
+  const Raster expected = over_nothing(image, scale);
+  return compare(drawn_by_librsvg(svg, {expected.width, expected.height}), expected);
+}
+
+float smallest_alpha(const Raster& picture) {
+  float alpha = 1;
+  for (int y = 0; picture.has_alpha() && y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) alpha = std::min(alpha, picture.pixel(x, y)[3]);
+  }
+  return alpha;
+}
+
+VectorImage random_picture(bool opaque = true, int columns = 9, int rows = 6) {
+  PatchMesh patches = testing::random_patches(columns, rows, 144, 96, 3);
+  testing::set_random_colors(patches, 5, opaque);
+  patches.opaque = opaque;
+  return testing::single_layer(std::move(patches), 144, 96);
+}
+
+TEST(Svg, IsWellFormedXmlWithItsSizeAndTitle) {
+  SvgOptions options;
+  options.title = "Cats & <dogs> \"2\" \x01";
+  const fs::path svg = output("title.svg");
+  write_svg(random_picture(), svg, options);
+  const std::string text = bytes_of(svg);
+  EXPECT_THAT(text, HasSubstr("width=\"144\" height=\"96\" viewBox=\"0 0 144 96\" role=\"img\""));
+  EXPECT_THAT(text, HasSubstr("<title>Cats &amp; &lt;dogs&gt; &quot;2&quot; </title>"));
+  std::string log;
+  EXPECT_EQ(test::run({"python3", "-c",
+                       "import sys, xml.dom.minidom as m; d = m.parse(sys.argv[1]); ids = "
+                       "[g.getAttribute('id') for g in d.getElementsByTagName('linearGradient')]; "
+                       "assert len(ids) > 10 and len(ids) == len(set(ids))",
+                       svg},
+                      &log),
+            0)
+      << log;
+}
+
+TEST(Svg, AConstantPictureIsExact) {
+  PatchMesh patches = testing::random_patches(5, 4, 50, 40, 1);
+  testing::set_linear_colors(patches, Color(51, 102, 204, 255) / 255);
+  const VectorImage image = testing::single_layer(std::move(patches), 50, 40);
+  EXPECT_EQ(difference(image, 1, "constant").max_error, 0);
+  EXPECT_EQ(difference(image, 3, "constant").max_error, 0);
+}
+
+TEST(Svg, ALinearPictureIsAlmostExact) {
+  PatchMesh patches = testing::random_patches(5, 4, 100, 80, 1);
+  testing::set_linear_colors(patches, Color(0.1f, 0.9f, 0.3f, 1), Color(0.008f, -0.002f, 0, 0),
+                             Color(0, -0.006f, 0.004f, 0));
+  const VectorImage image = testing::single_layer(std::move(patches), 100, 80);
+  for (const double scale : {1.0, 4.0}) {
+    EXPECT_GT(difference(image, scale, "linear").psnr, 44) << scale;
+  }
+}
+
+TEST(Svg, LooksLikeTheRenderingWithinItsTolerance) {
+  const VectorImage image = random_picture();
+  for (const double tolerance : {8.0, 4.0, 2.0}) {
+    SvgOptions options;
+    options.tolerance = tolerance;
+    // The root mean square error of a cell is at most tolerance / 2, and seams cost a little.
+    const double bound = 20 * std::log10(255 / (0.5 * tolerance)) - 1.5;
+    EXPECT_GT(difference(image, 4, "random", options).psnr, bound) << tolerance;
+  }
+}
+
+TEST(Svg, ASmallerToleranceIsNearerToTheRendering) {
+  double before = 0;
+  for (const double tolerance : {16.0, 8.0, 4.0, 2.0, 1.0}) {
+    SvgOptions options;
+    options.tolerance = tolerance;
+    const double psnr = difference(random_picture(), 3, "sweep", options).psnr;
+    EXPECT_GT(psnr, before) << tolerance;
+    before = psnr;
+  }
+}
+
+TEST(Svg, SeamsDoNotLetTheBackgroundThrough) {
+  const fs::path svg = output("seams.svg");
+  write_svg(random_picture(), svg);
+  for (const int scale : {1, 2, 3, 7}) {
+    const Raster drawn = drawn_by_librsvg(svg, {144 * scale, 96 * scale});
+    double open = 0;
+    for (int y = 0; drawn.has_alpha() && y < drawn.height; ++y) {
+      for (int x = 0; x < drawn.width; ++x) open += 255 * (1 - drawn.pixel(x, y)[3]);
+    }
+    EXPECT_LT(open / (drawn.width * drawn.height), 0.05) << scale;
+    EXPECT_GT(smallest_alpha(drawn), 0.85) << scale;
+  }
+}
+
+TEST(Svg, APictureOfOneQuad) {
+  const VectorImage image = random_picture(true, 1, 1);
+  EXPECT_GT(difference(image, 2, "one").psnr, 40);
+  EXPECT_EQ(smallest_alpha(drawn_by_librsvg(output("one.svg"), {288, 192})), 1);
+}
+
+TEST(Svg, TransparencyIsKept) {
+  const VectorImage image = random_picture(false);
+  for (const double scale : {1.0, 4.0}) {
+    EXPECT_GT(difference(image, scale, "transparent").psnr, 38) << scale;
+  }
+  const Raster drawn = drawn_by_librsvg(output("transparent.svg"), {576, 384});
+  const Raster expected = over_nothing(image, 4);
+  ASSERT_TRUE(drawn.has_alpha() && expected.has_alpha());
+  double squared = 0;
+  for (int y = 0; y < drawn.height; ++y) {
+    for (int x = 0; x < drawn.width; ++x) {
+      squared += std::pow(255 * (drawn.pixel(x, y)[3] - expected.pixel(x, y)[3]), 2);
+    }
+  }
+  EXPECT_LT(std::sqrt(squared / (drawn.width * drawn.height)), 3);
+}
+
+TEST(Svg, OpaqueAndTransparentPartsMeetWithoutASeam) {
+  PatchMesh patches = testing::random_patches(6, 4, 60, 40, 4);
+  testing::set_linear_colors(patches, Color(0.2f, 0.6f, 0.4f, 1));
+  patches.opaque = false;
+  for (int h = 0; h < patches.mesh.halfedge_count(); ++h) {
+    const double x = patches.mesh.vertices[patches.mesh.origin(h)].x();
+    if (x > 40) patches.wedges[patches.wedge_of_corner[h]].value = Color::Zero();
+  }
+  const VectorImage image = testing::single_layer(std::move(patches), 60, 40);
+  EXPECT_GT(difference(image, 4, "fade").psnr, 40);
+}
+
+TEST(Svg, LayersAreTransformed) {
+  VectorImage image = random_picture();
+  Layer above;
+  above.patches = testing::random_patches(3, 2, 30, 20, 8);
+  testing::set_linear_colors(above.patches, Color(0.9f, 0.1f, 0.1f, 1));
+  above.transform.translate(Eigen::Vector2d(40, 30)).rotate(0.5).scale(2);
+  image.layers.push_back(above);
+  EXPECT_GT(difference(image, 4, "layers").psnr, 38);
+}
+
+TEST(Svg, TheSameBytesForAnyNumberOfThreads) {
+  const VectorImage image = random_picture(false);
+  std::vector<std::string> written;
+  for (const int threads : {1, 2, 3}) {
+    RunContext context;
+    context.threads = threads;
+    write_svg(image, output("threads.svg"), {}, context);
+    written.push_back(bytes_of(output("threads.svg")));
+  }
+  EXPECT_EQ(written[0], written[1]);
+  EXPECT_EQ(written[0], written[2]);
+}
+
+TEST(Svg, RefusesAToleranceOfZero) {
+  SvgOptions options;
+  options.tolerance = 0;
+  EXPECT_THROW(write_svg(random_picture(), output("zero.svg"), options), Error);
+  EXPECT_FALSE(fs::exists(output("zero.svg")));
+}
+
+}  // namespace
+}  // namespace quadrille
