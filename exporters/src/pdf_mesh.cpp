@@ -6,8 +6,11 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 
+#include "patch_opacity.h"
 #include "quadrille/error.h"
 #include "subdivision.h"
 
@@ -16,8 +19,9 @@ namespace {
 
 /// Points per inch of a PDF's user space.
 constexpr double kPointsPerInch = 72;
-/// At most this many sub-patches along each side of a patch.
-constexpr int kMaxDivisions = 16;
+/// Sub-patches are not made shorter than this, in pixels of the picture, nor more along a side.
+constexpr double kSmallestSide = 1;
+constexpr int kMostDivisions = 32;
 /// Patches of one mesh pattern.
 constexpr int kChunk = 2048;
 
@@ -33,10 +37,21 @@ Color straight(const Color& premultiplied) {
   return color;
 }
 
-std::vector<SubPatch> divide(const Layer& layer, int quad, double tolerance) {
+/// The divisions whose parts are about kSmallestSide long.
+Divisions finest(const BicubicBezier<Eigen::Vector2d>& position) {
+  const auto parts = [&](int side) {
+    const PlaneCurve a = side_curve(position, side), b = side_curve(position, side + 2);
+    const double length = std::max((a[3] - a[0]).norm(), (b[3] - b[0]).norm());
+    return std::clamp(static_cast<int>(std::ceil(length / kSmallestSide)), 1, kMostDivisions);
+  };
+  return {parts(0), parts(1)};
+}
+
+std::vector<SubPatch> divide(const Layer& layer, int quad, std::optional<double> tolerance) {
   const BicubicBezier<Eigen::Vector2d> position = to_bezier(placed_geometry(layer, quad));
   const BicubicBezier<Color> color = to_bezier(ferguson_patch(layer.patches, quad).color);
-  const Divisions count = bilinear_divisions(color, tolerance, kMaxDivisions);
+  const Divisions count =
+      tolerance ? bilinear_divisions(color, *tolerance, finest(position)) : Divisions{};
   std::vector<SubPatch> parts;
   for (int j = 0; j < count.v; ++j) {
     for (int i = 0; i < count.u; ++i) {
@@ -101,29 +116,64 @@ void require(cairo_status_t status) {
                                          "; export a smaller picture or another format");
 }
 
-void draw_layer(cairo_t* drawing, const Layer& layer, const PdfOptions& options,
-                const RunContext& context) {
-  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
-  const int count = layer.patches.patch_count();
-  for (int begin = 0; begin < count; begin += kChunk) {
-    const int end = std::min(begin + kChunk, count);
-    std::vector<std::vector<SubPatch>> divided(end - begin);
-    arena.execute([&] {
-      tbb::parallel_for(begin, end, [&](int q) {
-        divided[q - begin] = divide(layer, q, options.tolerance / 255);
-      });
-    });
-    const Pattern mesh(cairo_pattern_create_mesh());
-    for (const auto& parts : divided) {
-      for (const SubPatch& part : parts) add_to_mesh(mesh.get(), part, layer.patches.opaque);
+class PdfPainter {
+ public:
+  PdfPainter(cairo_t* drawing, const VectorImage& image, const PdfOptions& options,
+             const RunContext& context)
+      : drawing_(drawing), image_(image), options_(options), context_(context) {}
+
+  void paint() {
+    const double tolerance = options_.tolerance / 255;
+    for (const Layer& layer : image_.layers) {
+      const std::vector<PatchOpacity> opacities = patch_opacities(layer.patches, 0.5 * tolerance);
+      const std::vector<int> opaque = patches_with(opacities, PatchOpacity::opaque);
+      const std::vector<int> translucent = patches_with(opacities, PatchOpacity::translucent);
+      // Where neighbours are divided differently, viewers may leave out single pixels along their
+      // common edge. Whole patches underneath show nearly the right colour there.
+      paint_patches({layer, opaque, true, {}});
+      paint_patches({layer, opaque, true, tolerance});
+      paint_patches({layer, translucent, false, tolerance});
     }
-    require(cairo_pattern_status(mesh.get()));
-    cairo_set_source(drawing, mesh.get());
-    cairo_paint(drawing);
-    require(cairo_status(drawing));
-    context.progress("write PDF", double(end) / count);
   }
-}
+
+ private:
+  struct Task {
+    const Layer& layer;
+    const std::vector<int>& quads;
+    bool opaque;
+    std::optional<double> tolerance;  ///< patches stay whole without
+  };
+
+  void paint_patches(const Task& task) {
+    const int count = static_cast<int>(task.quads.size());
+    for (int begin = 0; begin < count; begin += kChunk) {
+      const int end = std::min(begin + kChunk, count);
+      std::vector<std::vector<SubPatch>> divided(end - begin);
+      arena_.execute([&] {
+        tbb::parallel_for(begin, end, [&](int i) {
+          divided[i - begin] = divide(task.layer, task.quads[i], task.tolerance);
+        });
+      });
+      const Pattern mesh(cairo_pattern_create_mesh());
+      for (const auto& parts : divided) {
+        for (const SubPatch& part : parts) add_to_mesh(mesh.get(), part, task.opaque);
+      }
+      require(cairo_pattern_status(mesh.get()));
+      cairo_set_source(drawing_, mesh.get());
+      cairo_paint(drawing_);
+      require(cairo_status(drawing_));
+      if (task.tolerance) painted_ += end - begin;
+      context_.progress("write PDF", double(painted_) / image_.patch_count());
+    }
+  }
+
+  cairo_t* drawing_;
+  const VectorImage& image_;
+  const PdfOptions& options_;
+  const RunContext& context_;
+  tbb::task_arena arena_{context_.threads > 0 ? context_.threads : tbb::task_arena::automatic};
+  int painted_ = 0;
+};
 
 }  // namespace
 
@@ -137,7 +187,7 @@ std::vector<unsigned char> draw_pdf(const VectorImage& image, const PdfOptions& 
   {
     const Drawing drawing(cairo_create(page.get()));
     cairo_scale(drawing.get(), scale, scale);
-    for (const Layer& layer : image.layers) draw_layer(drawing.get(), layer, options, context);
+    PdfPainter(drawing.get(), image, options, context).paint();
     cairo_show_page(drawing.get());
     require(cairo_status(drawing.get()));
   }

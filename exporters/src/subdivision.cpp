@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <iterator>
 
 namespace quadrille {
 namespace {
@@ -37,10 +37,13 @@ Deviation polyline_deviation(const std::array<Color, 4>& curve, int parts) {
   return deviation;
 }
 
-/// The deviation along u (or v) for 1 .. limit parts.
-std::vector<Deviation> deviations_along(const BicubicBezier<Color>& color, bool along_u,
-                                        int limit) {
-  std::vector<Deviation> all(limit);
+constexpr int kCounts[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32};
+constexpr int kCountCount = static_cast<int>(std::size(kCounts));
+using Deviations = std::array<Deviation, kCountCount>;
+
+/// The deviation along u (or v) for each number of parts in kCounts.
+Deviations deviations_along(const BicubicBezier<Color>& color, bool along_u) {
+  Deviations all;
   for (int l = 0; l < kLines; ++l) {
     const double t = double(l) / (kLines - 1);
     std::array<Color, 4> curve;
@@ -49,10 +52,10 @@ std::vector<Deviation> deviations_along(const BicubicBezier<Color>& color, bool 
       for (int j = 0; j < 4; ++j) across[j] = along_u ? color.control[j][i] : color.control[i][j];
       curve[i] = sub_curve(across, t, t)[0];
     }
-    for (int parts = 1; parts <= limit; ++parts) {
-      const Deviation one = polyline_deviation(curve, parts);
-      all[parts - 1].largest = std::max(all[parts - 1].largest, one.largest);
-      all[parts - 1].mean_squared += one.mean_squared / kLines;
+    for (int n = 0; n < kCountCount; ++n) {
+      const Deviation one = polyline_deviation(curve, kCounts[n]);
+      all[n].largest = std::max(all[n].largest, one.largest);
+      all[n].mean_squared += one.mean_squared / kLines;
     }
   }
   return all;
@@ -106,17 +109,18 @@ double chord_distance(const PlaneCurve& curve) {
   return 0.75 * farthest;
 }
 
-Divisions bilinear_divisions(const BicubicBezier<Color>& color, double tolerance, int limit) {
-  const std::vector<Deviation> along_u = deviations_along(color, true, limit);
-  const std::vector<Deviation> along_v = deviations_along(color, false, limit);
-  Divisions best{limit, limit};
-  for (int u = 1; u <= limit; ++u) {
-    for (int v = 1; v <= limit; ++v) {
+Divisions bilinear_divisions(const BicubicBezier<Color>& color, double tolerance,
+                             const Divisions& limit) {
+  const Deviations along_u = deviations_along(color, true);
+  const Deviations along_v = deviations_along(color, false);
+  Divisions best = limit;
+  for (int i = 0; i < kCountCount && kCounts[i] <= limit.u; ++i) {
+    for (int j = 0; j < kCountCount && kCounts[j] <= limit.v; ++j) {
       // The deviations of the two directions add up at worst, and are about independent on average.
-      const Deviation &du = along_u[u - 1], &dv = along_v[v - 1];
+      const Deviation &du = along_u[i], &dv = along_v[j];
       const bool fits = du.largest + dv.largest <= 2 * tolerance &&
                         std::sqrt(du.mean_squared + dv.mean_squared) <= 0.5 * tolerance;
-      if (fits && u * v < best.u * best.v) best = {u, v};
+      if (fits && kCounts[i] * kCounts[j] < best.u * best.v) best = {kCounts[i], kCounts[j]};
     }
   }
   return best;

@@ -56,9 +56,10 @@ struct Divisions {
   int u = 1, v = 1;
 };
 
-/// The fewest equal parts per direction, at most `limit` each, with which bilinear interpolation of
-/// the parts' corner colours stays near the patch's colour, clamped to [0, 1]: within half of
-/// `tolerance` in the root mean square and within twice of it anywhere.
-Divisions bilinear_divisions(const BicubicBezier<Color>& color, double tolerance, int limit);
+/// About the fewest equal parts per direction, within the limits, with which bilinear interpolation
+/// of the parts' corner colours stays near the patch's colour, clamped to [0, 1]: within half of
+/// `tolerance` in the root mean square and within twice of it anywhere. The limits where none do.
+Divisions bilinear_divisions(const BicubicBezier<Color>& color, double tolerance,
+                             const Divisions& limit);
 
 }  // namespace quadrille

@@ -33,9 +33,7 @@ class SvgWriter {
  public:
   SvgWriter(const VectorImage& image, const SvgOptions& options, const RunContext& context,
             std::ostream& out)
-      : image_(image), options_(options), context_(context), out_(out), cells_(out) {
-    for (const Layer& layer : image.layers) steps_ += 2.0 * layer.patches.patch_count();
-  }
+      : image_(image), options_(options), context_(context), out_(out), cells_(out) {}
 
   void write() {
     const std::string w = to_text(image_.width), h = to_text(image_.height);
@@ -57,7 +55,6 @@ class SvgWriter {
     if (!translucent.empty()) write_masked(layer, translucent);
     write_cells(layer, opaque, CellPaint::color);
     out_ << "</g>\n";
-    done_ += source.patches.patch_count();
   }
 
   /// Overlapping translucent cells would add up. So their alpha is painted in opaque grays, seams
@@ -86,8 +83,8 @@ class SvgWriter {
       for (const auto& patch : painted) {
         for (const PaintedCell& cell : patch) cells_.add(cell.outline, cell.fill);
       }
-      done_ += (end - begin) * (paint == CellPaint::alpha ? 0.5 : 1.0);
-      context_.progress("write SVG", std::min(1.0, done_ / steps_));
+      if (paint == CellPaint::color) painted_ += end - begin;
+      context_.progress("write SVG", double(painted_) / image_.patch_count());
     }
     cells_.finish();
   }
@@ -108,7 +105,7 @@ class SvgWriter {
   SvgCellWriter cells_;
   tbb::task_arena arena_{context_.threads > 0 ? context_.threads : tbb::task_arena::automatic};
   int mask_count_ = 0;
-  double done_ = 0, steps_ = 0;
+  int painted_ = 0;
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ struct GradientFill {
 
 /// Colours of a cell on a grid of its parameters, the borders included.
 struct CellSamples {
-  static constexpr int kSide = 8;
+  static constexpr int kSide = 10;
   static constexpr int kCount = kSide * kSide;
 
   std::array<Eigen::Vector2d, kCount> position;

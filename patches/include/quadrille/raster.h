@@ -32,6 +32,9 @@ struct Raster {
   }
 };
 
+/// Throws Error{invalid_argument} when the fields contradict each other or a sample is not finite.
+void check_raster(const Raster& picture);
+
 /// The w x h pixels whose top-left pixel is (x, y). Throws Error{invalid_argument} unless the
 /// rectangle lies inside the picture.
 Raster crop(const Raster& picture, int x, int y, int w, int h);

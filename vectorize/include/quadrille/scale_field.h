@@ -14,7 +14,7 @@ struct ScaleField {
 
 struct ScaleOptions {
   double min_ratio = 0.4;     ///< a_min: smallest length over the largest, in (0, 1]
-  double range = 1.5;          ///< k: distance, in target edges, over which the length grows
+  double range = 1.5;         ///< k: distance, in target edges, over which the length grows
   double max_gradient = 0.2;  ///< bound on |grad length|
 };
 

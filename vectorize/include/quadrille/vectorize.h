@@ -12,8 +12,11 @@
 
 namespace quadrille {
 
+/// More quads than this are refused.
+inline constexpr int kMaxQuads = 2'000'000;
+
 struct VectorizeOptions {
-  /// Wished number of quads, at least 1; met within 10 %.
+  /// Wished number of quads, 1 to kMaxQuads; met within 10 % from 20 quads up.
   int quads = 3000;
   CrossFieldOptions cross_field;
   ScaleOptions scale;
@@ -30,8 +33,10 @@ struct Quadrangulation {
   CrossField cross;
   ScaleField scale;
   PositionField position;
-  QuadMesh mesh;          ///< source pixels
-  bool fallback = false;  ///< the axis-aligned lattice took the place of an invalid result
+  QuadMesh mesh;  ///< source pixels
+  /// The axis-aligned lattice took the place of the fields' mesh: the picture is smaller than 4
+  /// quads a side, its quads are smaller than a pixel, or the count could not be met within 10 %.
+  bool fallback = false;
 };
 
 struct VectorizeReport {
@@ -51,11 +56,13 @@ struct Vectorization {
 };
 
 /// Paper section 3: picture to field-aligned pure quad mesh, validated.
-/// Throws Error{invalid_argument} for options out of range.
+/// Throws Error{invalid_argument} for options out of range or a malformed picture,
+/// Error{limit_exceeded} above kMaxQuads, Error{cancelled}.
 Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& options = {},
                               const RunContext& context = {});
 
-/// The whole way: quadrangulate, then fit_patches.
+/// The whole way: quadrangulate, then the steps of fit_patches(), each reported as a stage. Throws
+/// as quadrangulate() does.
 Vectorization vectorize(const Raster& picture, const VectorizeOptions& options = {},
                         const RunContext& context = {});
 
