@@ -87,14 +87,7 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
   };
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 
-  write_atomically(path, [&](const fs::path& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    if (!file.flush()) {
-      throw Error(ErrorCode::io_failure,
-                  "cannot write the report '" + path.string() + "'; is the disk full?");
-    }
-  });
+  write_stream_atomically(path, [&](std::ostream& file) { file << text; });
 }
 
 }  // namespace quadrille::cli

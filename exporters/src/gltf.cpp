@@ -169,13 +169,9 @@ void write_glb(const VectorImage& image, const std::filesystem::path& path,
     if (layer.patches.patch_count() == 0) continue;
     add_layer(model, image, layer, depth++, options, context);
   }
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
-    const bool written = tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, file, false, true);
-    file.close();
-    if (!written || !file) {
-      throw Error(ErrorCode::io_failure,
-                  "cannot write " + path.string() + "; check the free space and permissions");
+  write_stream_atomically(path, [&](std::ostream& file) {
+    if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, file, false, true)) {
+      file.setstate(std::ios::failbit);
     }
   });
 }

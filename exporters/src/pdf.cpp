@@ -1,7 +1,10 @@
 #include <cmath>
+#include <memory>
+#include <ostream>
 
 // Chooses std::shared_ptr in the headers of libqpdf 11, which warn otherwise.
 #define POINTERHOLDER_TRANSITION 4
+#include <qpdf/Buffer.hh>
 #include <qpdf/QPDF.hh>
 #include <qpdf/QPDFWriter.hh>
 
@@ -14,8 +17,9 @@ namespace quadrille {
 namespace {
 
 /// The drawn PDF with its streams compressed, and without anything that changes from run to run.
-void write_compressed(const std::vector<unsigned char>& drawn, const std::string& title,
-                      const std::filesystem::path& path) {
+/// Made in memory, since QPDFWriter does not notice a full disk.
+std::shared_ptr<Buffer> compressed(const std::vector<unsigned char>& drawn,
+                                   const std::string& title) {
   QPDF pdf;
   pdf.setSuppressWarnings(true);
   pdf.processMemoryFile("picture", reinterpret_cast<const char*>(drawn.data()), drawn.size());
@@ -24,11 +28,13 @@ void write_compressed(const std::vector<unsigned char>& drawn, const std::string
   info.replaceKey("/Producer", QPDFObjectHandle::newUnicodeString("Quadrille"));
   pdf.getTrailer().replaceKey("/Info", info);
 
-  QPDFWriter writer(pdf, path.c_str());
+  QPDFWriter writer(pdf);
+  writer.setOutputMemory();
   writer.setObjectStreamMode(qpdf_o_generate);
   writer.setCompressStreams(true);
   writer.setDeterministicID(true);
   writer.write();
+  return writer.getBufferSharedPointer();
 }
 
 }  // namespace
@@ -41,13 +47,16 @@ void write_pdf(const VectorImage& image, const std::filesystem::path& path,
                     std::to_string(options.tolerance) + " must be positive; use 96 and 4");
   }
   const std::vector<unsigned char> drawn = draw_pdf(image, options, context);
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    try {
-      write_compressed(drawn, options.title, temporary);
-    } catch (const std::exception& error) {
-      throw Error(ErrorCode::io_failure, "cannot write '" + path.string() + "': " + error.what() +
-                                             "; check that the disk is not full");
-    }
+  std::shared_ptr<Buffer> bytes;
+  try {
+    bytes = compressed(drawn, options.title);
+  } catch (const std::exception& error) {
+    throw Error(ErrorCode::numerical_failure, std::string("the drawn PDF cannot be compressed (") +
+                                                  error.what() + "); report the picture");
+  }
+  write_stream_atomically(path, [&](std::ostream& file) {
+    file.write(reinterpret_cast<const char*>(bytes->getBuffer()),
+               static_cast<std::streamsize>(bytes->getSize()));
   });
 }
 

@@ -116,15 +116,8 @@ void write_svg(const VectorImage& image, const std::filesystem::path& path,
     throw Error(ErrorCode::invalid_argument, "the SVG tolerance is " + to_text(options.tolerance) +
                                                  "; choose one above 0, such as 4");
   }
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
-    SvgWriter(image, options, context, file).write();
-    file.close();
-    if (!file) {
-      throw Error(ErrorCode::io_failure,
-                  "cannot write '" + path.string() + "'; check that the disk is not full");
-    }
-  });
+  write_stream_atomically(
+      path, [&](std::ostream& file) { SvgWriter(image, options, context, file).write(); });
 }
 
 }  // namespace quadrille

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
 #include <string>
 
 #include "quadrille/atomic_file.h"
@@ -100,21 +101,21 @@ class SilentObserver : public vtkCommand {
   void Execute(vtkObject*, unsigned long, void*) override {}
 };
 
-void save_grid(vtkUnstructuredGrid* grid, const std::filesystem::path& file,
-               const std::filesystem::path& target) {
+/// The file's bytes; the writer's own errors of a full disk would name the temporary.
+std::string grid_file(vtkUnstructuredGrid* grid) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   vtkNew<SilentObserver> silent;
   writer->AddObserver(vtkCommand::ErrorEvent, silent);
-  writer->SetFileName(file.c_str());
+  writer->WriteToOutputStringOn();
   writer->SetInputData(grid);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToZLib();
   writer->SetHeaderTypeToUInt64();
   if (writer->Write() != 1 || writer->GetErrorCode() != 0) {
-    throw Error(ErrorCode::io_failure,
-                "cannot write " + target.string() + "; check the free space and permissions");
+    throw Error(ErrorCode::numerical_failure, "VTK cannot write these patches; report the picture");
   }
+  return writer->GetOutputString();
 }
 
 }  // namespace
@@ -130,8 +131,8 @@ void write_vtu(const VectorImage& image, const std::filesystem::path& path, cons
     builder.add(layer, index++);
   }
   const auto grid = builder.build();
-  write_atomically(
-      path, [&](const std::filesystem::path& temporary) { save_grid(grid, temporary, path); });
+  const std::string file = grid_file(grid);
+  write_stream_atomically(path, [&](std::ostream& stream) { stream << file; });
   context.progress("vtu", 1);
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <system_error>
 
@@ -34,6 +35,9 @@ void check_writable(const fs::path& target) {
   }
   if (fs::is_directory(target, ignored)) {
     refuse(target, "it is a folder; add a file name");
+  }
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
+    refuse(target, "it is not a regular file; choose another path");
   }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
     refuse(target, std::string("the folder is not writable (") + std::strerror(errno) +
@@ -69,16 +73,28 @@ class RemovedUnlessKept {
 
 }  // namespace
 
-void write_atomically(const fs::path& target,
+void write_atomically(const fs::path& named,
                       const std::function<void(const fs::path& temporary)>& write) {
+  std::error_code error;
+  const fs::path target = fs::is_symlink(named, error) ? fs::weakly_canonical(named) : named;
   check_writable(target);
   const fs::path temporary = temporary_beside(target);
   RemovedUnlessKept guard(temporary);
   write(temporary);
-  std::error_code error;
   fs::rename(temporary, target, error);
   if (error) refuse(target, error.message() + "; choose another path");
   guard.keep();
+}
+
+void write_stream_atomically(const fs::path& target,
+                             const std::function<void(std::ostream& file)>& write) {
+  write_atomically(target, [&](const fs::path& temporary) {
+    std::ofstream file(temporary, std::ios::binary);
+    if (!file) refuse(target, "the folder takes no new file; choose another path");
+    write(file);
+    file.close();
+    if (!file) refuse(target, "not all bytes arrived; check the free space of the disk");
+  });
 }
 
 }  // namespace quadrille

@@ -104,15 +104,9 @@ VectorImage from_document(std::span<const std::byte> bytes, const std::string& n
 
 void save_document(const VectorImage& image, const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = to_document(image);
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
+  write_stream_atomically(path, [&](std::ostream& file) {
     file.write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file) {
-      throw Error(ErrorCode::io_failure, "cannot write '" + path.string() +
-                                             "'; check the free space or choose another path");
-    }
   });
 }
 

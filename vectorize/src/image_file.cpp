@@ -43,7 +43,11 @@ void check_readable(const fs::path& path) {
     throw Error(ErrorCode::io_failure,
                 quoted(path) + " cannot be read: it is a folder; name a picture in it");
   }
-  if (fs::is_regular_file(status) && fs::file_size(path, error) == 0 && !error) {
+  if (!fs::is_regular_file(status)) {
+    throw Error(ErrorCode::io_failure,
+                quoted(path) + " cannot be read: it is not a regular file; name a picture file");
+  }
+  if (fs::file_size(path, error) == 0 && !error) {
     throw Error(ErrorCode::io_failure, quoted(path) + " is empty; use an intact copy");
   }
 }
