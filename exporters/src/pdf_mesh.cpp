@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "arena_size.h"
 #include "patch_opacity.h"
 #include "quadrille/error.h"
 #include "subdivision.h"
@@ -171,7 +172,7 @@ class PdfPainter {
   const VectorImage& image_;
   const PdfOptions& options_;
   const RunContext& context_;
-  tbb::task_arena arena_{context_.threads > 0 ? context_.threads : tbb::task_arena::automatic};
+  tbb::task_arena arena_{arena_size(context_)};
   int painted_ = 0;
 };
 

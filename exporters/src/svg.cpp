@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "arena_size.h"
 #include "quadrille/atomic_file.h"
 #include "quadrille/error.h"
 #include "quadrille/export.h"
@@ -103,7 +104,7 @@ class SvgWriter {
   const RunContext& context_;
   std::ostream& out_;
   SvgCellWriter cells_;
-  tbb::task_arena arena_{context_.threads > 0 ? context_.threads : tbb::task_arena::automatic};
+  tbb::task_arena arena_{arena_size(context_)};
   int mask_count_ = 0;
   int painted_ = 0;
 };
