@@ -94,8 +94,16 @@ void register_stages() {
   };
   add("feature_tensor", [] { return feature_tensor(stages().working.picture).weight.width; });
   add("cross_field", [] { return cross_field(stages().features).z.width; });
-  add("scale_field",
-      [] { return scale_field(stages().features, stages().cross, kQuads / 4.0).along_x.width; });
+  add("relative_scale", [] {
+    const Quadrangulation& s = stages();
+    const double edge = 2 * std::sqrt(picture().width * picture().height / double{kQuads});
+    return relative_scale(s.features, s.cross, edge / s.working.scale_x).along_x.width;
+  });
+  add("snap_to_features", [] {
+    QuadMesh mesh = stages().mesh;
+    snap_to_features(mesh, picture());
+    return mesh.quad_count();
+  });
   add("position_field", [] {
     const Quadrangulation& s = stages();
     return position_field(s.features, s.cross, s.scale).origin.width;

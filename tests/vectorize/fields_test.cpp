@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
+#include "quadrille/error.h"
 #include "quadrille/position_field.h"
 #include "quadrille/scale_field.h"
 #include "quadrille/working_picture.h"
@@ -40,39 +42,96 @@ TEST(WorkingPicture, CoversThePictureAndKeepsAConstant) {
   }
 }
 
+ScaleField scale_for(const FeatureTensor& features, const CrossField& field, double count) {
+  const double edge = std::sqrt(field.z.data.size() / count);
+  return scaled_to_count(relative_scale(features, field, edge), field, count);
+}
+
 TEST(ScaleField, UniformWithoutFeaturesAndDividesTheSides) {
-  const ScaleField scale = scale_field(flat_features(96, 64), uniform_field(96, 64, 0), 24);
+  const ScaleField scale = scale_for(flat_features(96, 64), uniform_field(96, 64, 0), 24);
   for (const float l : scale.along_x.data) EXPECT_NEAR(l, 16, 1e-3);
   for (const float l : scale.along_y.data) EXPECT_NEAR(l, 16, 1e-3);
 }
 
-TEST(ScaleField, MeetsTheCountGradientAndRatioWithFeatures) {
+TEST(ScaleField, CellsAreThinAcrossAFeatureAndNotShorterAlongIt) {
   FeatureTensor features = flat_features(200, 160);
-  for (int y = 20; y < 140; ++y) features.edges(70, y) = 1;
+  for (int y = 0; y < 160; ++y) features.gradient(70, y) = {0.3f, 0};
+  const ScaleField scale = scale_for(features, uniform_field(200, 160, 0), 100);
+  EXPECT_NEAR(cells(scale), 100, 12) << "whole cells across may change it a little";
+  EXPECT_LT(scale.along_x(70, 80), 0.6 * scale.along_x(180, 80));
+  EXPECT_LT(scale.along_x(70, 80), 0.5 * scale.along_y(70, 80));
+  EXPECT_GT(scale.along_y(70, 80), 0.7 * scale.along_y(180, 80)) << "the bound on the ratio acts";
+}
+
+TEST(ScaleField, KeepsToItsBounds) {
+  FeatureTensor features = flat_features(150, 150);
+  for (int y = 0; y < 150; ++y) {
+    for (int x = 0; x < 150; ++x) features.gradient(x, y) = {(x * 37 + y * 11) % 90 == 0, 0};
+  }
   const ScaleOptions options;
-  const ScaleField scale = scale_field(features, uniform_field(200, 160, 0.3), 100, options);
-  EXPECT_NEAR(cells(scale), 100, 8) << "whole cells across may change it a little";
-  float smallest = 1e9f, largest = 0;
-  for (int y = 0; y < 160; ++y) {
-    for (int x = 0; x + 1 < 200; ++x) {
-      const float a = scale.along_x(x, y), b = scale.along_x(x + 1, y);
-      EXPECT_LE(std::abs(a - b), 1.5 * options.max_gradient);
-      smallest = std::min(smallest, a), largest = std::max(largest, a);
+  const CrossField field = uniform_field(150, 150, 0.3);
+  const ScaleField scale = relative_scale(features, field, 12, options);
+  for (std::size_t i = 0; i < scale.along_x.data.size(); ++i) {
+    const float x = scale.along_x.data[i], y = scale.along_y.data[i];
+    EXPECT_LE(std::max(x, y) / std::min(x, y), options.max_anisotropy * 1.01);
+    EXPECT_LE(std::max(x, y), options.max_ratio * 1.01);
+    EXPECT_GE(std::min(x, y), options.min_ratio * 0.99);
+  }
+}
+
+// Polar lattices: the cross turns with the angle around a far point, so lines through that point
+// draw apart with the distance r from it, and only lengths proportional to r belong to one lattice.
+TEST(ScaleField, LengthsFollowTheTurningOfTheCross) {
+  const int size = 90;
+  const Eigen::Vector2d pole(-200, size / 2.0);
+  CrossField field = uniform_field(size, size, 0);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const Eigen::Vector2d p = Eigen::Vector2d(x + 0.5, y + 0.5) - pole;
+      field.z(x, y) = std::polar(1.0f, static_cast<float>(4 * std::atan2(p.y(), p.x())));
     }
   }
-  EXPECT_LE(largest / smallest, 1.01 / options.min_ratio);
-  EXPECT_EQ(std::min_element(scale.along_x.data.begin(), scale.along_x.data.end()) -
-                    scale.along_x.data.begin() >=
-                70,
-            true);
-  EXPECT_LT(scale.along_x(70, 80), scale.along_x(180, 80));
+  ScaleOptions options;
+  options.reach = 20;
+  const ScaleField scale = relative_scale(flat_features(size, size), field, 10, options);
+  const double grown = scale.along_y(70, 45) / scale.along_y(20, 45);
+  EXPECT_NEAR(grown, (200 + 70.5) / (200 + 20.5), 0.03);
+  EXPECT_NEAR(scale.along_x(70, 45) / scale.along_x(20, 45), 1, 0.03);
+}
+
+TEST(ScaleField, DensityMapMultiplies) {
+  const FeatureTensor features = flat_features(120, 80);
+  const CrossField field = uniform_field(120, 80, 0);
+  ScaleOptions options;
+  options.density = FieldGrid<float>(120, 80, 1);
+  for (int y = 0; y < 80; ++y) {
+    for (int x = 0; x < 60; ++x) options.density(x, y) = 4;
+  }
+  const ScaleField scale = relative_scale(features, field, 4, options);
+  EXPECT_NEAR(scale.along_x(110, 40) / scale.along_x(10, 40), 2, 0.1);
+  EXPECT_NEAR(scale.along_y(110, 40) / scale.along_y(10, 40), 2, 0.1);
+}
+
+TEST(ScaleField, RefusesOptionsOutOfRange) {
+  const FeatureTensor features = flat_features(20, 20);
+  const CrossField field = uniform_field(20, 20, 0);
+  for (const auto& spoil : std::vector<std::function<void(ScaleOptions&)>>{
+           [](auto& o) { o.grading = -1; }, [](auto& o) { o.flat_share = 0; },
+           [](auto& o) { o.min_ratio = 0; }, [](auto& o) { o.max_ratio = 0.5; },
+           [](auto& o) { o.max_anisotropy = 0.5; }, [](auto& o) { o.reach = std::nan(""); },
+           [](auto& o) { o.density = FieldGrid<float>(3, 3, 1); },
+           [](auto& o) { o.density = FieldGrid<float>(20, 20, 0); }}) {
+    ScaleOptions options;
+    spoil(options);
+    EXPECT_THROW(relative_scale(features, field, 5, options), Error);
+  }
 }
 
 TEST(PositionField, ExactLatticeOnAConstantPicture) {
   const int w = 96, h = 64;
   const FeatureTensor features = flat_features(w, h);
   const CrossField field = uniform_field(w, h, 0);
-  const ScaleField scale = scale_field(features, field, 24);
+  const ScaleField scale = scale_for(features, field, 24);
   const PositionField positions = position_field(features, field, scale);
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
@@ -102,7 +161,7 @@ TEST(PositionField, BorderPixelsHoldOnToTheBorder) {
   const int w = 70, h = 50;
   const FeatureTensor features = flat_features(w, h);
   const CrossField field = uniform_field(w, h, 0.4);
-  const ScaleField scale = scale_field(features, field, 20);
+  const ScaleField scale = scale_for(features, field, 20);
   const PositionField positions = position_field(features, field, scale);
   for (int x = 0; x < w; ++x) {
     EXPECT_EQ(positions.origin(x, 0).y(), 0);

@@ -18,9 +18,9 @@ struct LatticeFrame {
   Eigen::Vector2f x, y;                  ///< edge vectors, working pixels
   Eigen::Vector2f inverse_x, inverse_y;  ///< rows of the inverse
 
-  LatticeFrame() : x(1, 0), y(0, 1), inverse_x(1, 0), inverse_y(0, 1) {}
-  LatticeFrame(float angle, float length_x, float length_y) {
-    const Eigen::Vector2f direction(std::cos(angle), std::sin(angle));
+  LatticeFrame(float angle, float length_x, float length_y)
+      : LatticeFrame(Eigen::Vector2f(std::cos(angle), std::sin(angle)), length_x, length_y) {}
+  LatticeFrame(const Eigen::Vector2f& direction, float length_x, float length_y) {
     const Eigen::Vector2f normal(-direction.y(), direction.x());
     x = direction * length_x;
     y = normal * length_y;

@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "lattice_shift.h"
+
 namespace quadrille {
 namespace {
 
@@ -23,10 +25,18 @@ Shifts neighbour_shifts(const CrossField& field, const ScaleField& scale,
   const int w = field.z.width, h = field.z.height;
   Shifts shifts{FieldGrid<Eigen::Vector2i>(w, h, Eigen::Vector2i::Zero()),
                 FieldGrid<Eigen::Vector2i>(w, h, Eigen::Vector2i::Zero())};
+  FieldGrid<LatticePoint> points(w, h);
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
-      if (x + 1 < w) shifts.right(x, y) = lattice_shift(field, scale, positions, x, y, x + 1, y);
-      if (y + 1 < h) shifts.down(x, y) = lattice_shift(field, scale, positions, x, y, x, y + 1);
+      points(x, y) = {static_cast<float>(field.angle(x, y)),
+                      {scale.along_x(x, y), scale.along_y(x, y)},
+                      positions.origin(x, y)};
+    }
+  }
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      if (x + 1 < w) shifts.right(x, y) = shift_between(points(x, y), points(x + 1, y));
+      if (y + 1 < h) shifts.down(x, y) = shift_between(points(x, y), points(x, y + 1));
     }
   }
   return shifts;

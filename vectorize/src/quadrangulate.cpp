@@ -67,13 +67,14 @@ bool has_features(const FeatureTensor& features) {
 
 /// Scales, positions and quads for the solved cross field, repeated with corrected scales until the
 /// count is close to the wished one; keeps the closest.
-void mesh_to_count(Quadrangulation& result, double width, double height,
+void mesh_to_count(Quadrangulation& result, double width, double height, double edge,
                    const VectorizeOptions& options, StageClock& clock, const RunContext& context) {
+  const ScaleField relative = relative_scale(result.features, result.cross,
+                                             edge / result.working.scale_x, options.scale, context);
   CountCalibration calibration(
       options.quads, options.quads / 4.0 * (has_features(result.features) ? kGradingLoss : 1));
   for (int round = 0; round < kCalibrationRounds; ++round) {
-    ScaleField scale =
-        scale_field(result.features, result.cross, calibration.cells(), options.scale, context);
+    ScaleField scale = scaled_to_count(relative, result.cross, calibration.cells());
     clock.finish("scale field");
     PositionField position =
         position_field(result.features, result.cross, scale, options.position, context);
@@ -114,7 +115,9 @@ Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& opt
     result.cross = cross_field(result.features, options.cross_field, context);
     clock.finish("cross field",
                  {{"singularities", static_cast<double>(singularities(result.cross).size())}});
-    mesh_to_count(result, width, height, options, clock, context);
+    mesh_to_count(result, width, height, edge, options, clock, context);
+    snap_to_features(result.mesh, picture, options.snap, context);
+    clock.finish("snapping");
   }
   const bool valid = result.mesh.quad_count() > 0 &&
                      relative_miss(result.mesh.quad_count(), options.quads) <= kAcceptableMiss &&

@@ -6,64 +6,125 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "length_smoothing.h"
+#include "metric_field.h"
 #include "opencv_errors.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
 namespace {
 
-/// Exact Euclidean distance to the nearest feature line; the picture's diagonal when there is none.
-FieldGrid<float> feature_distance(const FieldGrid<unsigned char>& edges) {
-  FieldGrid<float> distance(edges.width, edges.height);
-  cv::Mat free(edges.height, edges.width, CV_8U);
-  bool any = false;
-  for (int y = 0; y < edges.height; ++y) {
-    for (int x = 0; x < edges.width; ++x) {
-      free.at<unsigned char>(y, x) = !edges(x, y);
-      any = any || edges(x, y);
-    }
+constexpr double kWindow = 0.35;        // sigma of the window of the colour change, in edges
+constexpr double kCoarsePerEdge = 3.5;  // pixels of the smoothing's grid per edge
+constexpr double kIsotropicRadius = 1;  // around singularities, in edges
+
+void check(const ScaleOptions& options, const FeatureTensor& features, double edge) {
+  const auto& density = options.density;
+  const bool map_fits = density.data.empty() || (density.width == features.weight.width &&
+                                                 density.height == features.weight.height);
+  const bool map_positive = std::all_of(density.data.begin(), density.data.end(),
+                                        [](float d) { return d > 0 && std::isfinite(d); });
+  if (!(edge > 0) || !(options.grading >= 0) || !(options.flat_share > 0) ||
+      !(options.min_ratio > 0 && options.min_ratio <= 1) || !(options.max_ratio >= 1) ||
+      !(options.max_anisotropy >= 1) || !(options.reach >= 0) || !map_fits || !map_positive) {
+    throw Error(ErrorCode::invalid_argument,
+                "the scale field's options are out of range; see ScaleOptions");
   }
-  if (!any) {
-    std::fill(distance.data.begin(), distance.data.end(),
-              static_cast<float>(std::hypot(edges.width, edges.height)));
-    return distance;
-  }
-  cv::Mat result(edges.height, edges.width, CV_32F, distance.data.data());
-  cv::distanceTransform(free, result, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
-  return distance;
 }
 
-/// Lowers values until no two 8-neighbours differ by more than `slope` times their distance.
-void limit_gradient(FieldGrid<float>& field, float slope) {
-  const int w = field.width, h = field.height;
-  const float diagonal = slope * std::sqrt(2.0f);
-  const auto lower = [&](int x, int y, int nx, int ny, float rise) {
-    if (nx < 0 || ny < 0 || nx >= w || ny >= h) return;
-    field(x, y) = std::min(field(x, y), field(nx, ny) + rise);
+/// The structure tensor of the colour change, smoothed over a window.
+struct ChangeTensor {
+  cv::Mat xx, xy, yy;
+  double mean = 0;  // change along an axis, over the picture
+
+  ChangeTensor(const FieldGrid<Eigen::Vector2f>& gradient, double sigma) {
+    const int w = gradient.width, h = gradient.height;
+    for (cv::Mat* m : {&xx, &xy, &yy}) m->create(h, w, CV_32F);
+    for (int y = 0; y < h; ++y) {
+      for (int x = 0; x < w; ++x) {
+        const Eigen::Vector2f g = gradient(x, y);
+        // The square root between |g| (thin features count) and |g|^2 (strong ones do).
+        const float size = g.norm(), share = size > 0 ? 1 / std::sqrt(size) : 0;
+        xx.at<float>(y, x) = share * g.x() * g.x();
+        xy.at<float>(y, x) = share * g.x() * g.y();
+        yy.at<float>(y, x) = share * g.y() * g.y();
+      }
+    }
+    for (cv::Mat* m : {&xx, &xy, &yy}) {
+      cv::GaussianBlur(*m, *m, {}, sigma, sigma, cv::BORDER_REPLICATE);
+    }
+    mean = 0.5 * (cv::mean(xx)[0] + cv::mean(yy)[0]);
+  }
+
+  float along(int x, int y, float c, float s) const {
+    return c * c * xx.at<float>(y, x) + 2 * c * s * xy.at<float>(y, x) + s * s * yy.at<float>(y, x);
+  }
+};
+
+FieldGrid<AxisPair> wished_lengths(const FeatureTensor& features, const CrossField& field,
+                                   double edge, const ScaleOptions& options) {
+  const int w = field.z.width, h = field.z.height;
+  const ChangeTensor change(features.gradient, std::max(0.5, kWindow * edge));
+  const double shortest = std::log(options.min_ratio), longest = std::log(options.max_ratio);
+  const auto length = [&](double here) {
+    if (!(change.mean > 0)) return 0.0;
+    return std::clamp(-options.grading * std::log(here / change.mean + options.flat_share),
+                      shortest, longest);
   };
+  FieldGrid<AxisPair> wished(w, h);
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
-      lower(x, y, x - 1, y, slope);
-      lower(x, y, x, y - 1, slope);
-      lower(x, y, x - 1, y - 1, diagonal);
-      lower(x, y, x + 1, y - 1, diagonal);
+      const auto angle = static_cast<float>(field.angle(x, y));
+      const float c = std::cos(angle), s = std::sin(angle);
+      const double denser =
+          options.density.data.empty() ? 0 : -0.5 * std::log(options.density(x, y));
+      wished(x, y) = {static_cast<float>(length(change.along(x, y, c, s)) + denser),
+                      static_cast<float>(length(change.along(x, y, -s, c)) + denser)};
     }
   }
-  for (int y = h - 1; y >= 0; --y) {
-    for (int x = w - 1; x >= 0; --x) {
-      lower(x, y, x + 1, y, slope);
-      lower(x, y, x, y + 1, slope);
-      lower(x, y, x + 1, y + 1, diagonal);
-      lower(x, y, x - 1, y + 1, diagonal);
-    }
-  }
+  return wished;
 }
 
-void normalise_count(FieldGrid<float>& length, double count) {
-  double cells = 0;
-  for (float l : length.data) cells += 1.0 / (static_cast<double>(l) * l);
-  const float factor = static_cast<float>(std::sqrt(cells / count));
-  for (float& l : length.data) l *= factor;
+/// 0 at singularities, where a cell has no two axes to tell apart, to 1 at `radius` pixels.
+FieldGrid<float> anisotropy_share(const CrossField& field, double radius) {
+  const int w = field.z.width, h = field.z.height;
+  FieldGrid<float> share(w, h, 1.0f);
+  const std::vector<Singularity> points = singularities(field);
+  if (points.empty()) return share;
+  cv::Mat free(h, w, CV_8U, cv::Scalar(255)), distance;
+  for (const Singularity& s : points) {
+    free.at<unsigned char>(static_cast<int>(s.y), static_cast<int>(s.x)) = 0;
+  }
+  cv::distanceTransform(free, distance, cv::DIST_L2, cv::DIST_MASK_3);
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      share(x, y) = std::min(1.0f, distance.at<float>(y, x) / static_cast<float>(radius));
+    }
+  }
+  return share;
+}
+
+ScaleField compute(const FeatureTensor& features, const CrossField& field, double edge,
+                   const ScaleOptions& options, const RunContext& context) {
+  const int w = field.z.width, h = field.z.height;
+  const int factor = std::max(1, static_cast<int>(std::lround(edge / kCoarsePerEdge)));
+  CoarseMetric metric(field, wished_lengths(features, field, edge, options), factor);
+  if (options.reach > 0) smooth_lengths(metric, options.reach * edge / factor, context);
+
+  const float most = 0.5f * static_cast<float>(std::log(options.max_anisotropy));
+  const FieldGrid<MetricTensor> tensors = metric.tensors();
+  const FieldGrid<float> share = anisotropy_share(field, kIsotropicRadius * edge);
+  ScaleField scale{FieldGrid<float>(w, h), FieldGrid<float>(w, h)};
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      const MetricTensor tensor = interpolated(tensors, factor, x, y);
+      const AxisPair full = tensor.along(std::polar(1.0f, static_cast<float>(field.angle(x, y))));
+      const float half = std::clamp(0.5f * (full.x - full.y), -most, most) * share(x, y);
+      scale.along_x(x, y) = std::exp(tensor.mean + half);
+      scale.along_y(x, y) = std::exp(tensor.mean - half);
+    }
+  }
+  return scale;
 }
 
 /// Whole numbers of cells across and down whose product is nearest to that of the given ones.
@@ -81,38 +142,36 @@ std::array<double, 2> whole_cells(double across, double down) {
 
 }  // namespace
 
-ScaleField scale_field(const FeatureTensor& features, const CrossField& field, double count,
-                       const ScaleOptions& options, const RunContext& context) {
-  if (!(count > 0) || !(options.min_ratio > 0) || options.min_ratio > 1 || !(options.range > 0)) {
-    throw Error(ErrorCode::invalid_argument,
-                "the scale field needs a positive count and range, and a ratio in (0, 1]");
-  }
+ScaleField relative_scale(const FeatureTensor& features, const CrossField& field, double edge,
+                          const ScaleOptions& options, const RunContext& context) {
+  check(options, features, edge);
   context.progress("scale field", 0);
-  const int w = features.weight.width, h = features.weight.height;
-  const double target = std::sqrt(static_cast<double>(w) * h / count);
-  FieldGrid<float> length = with_opencv_errors([&] { return feature_distance(features.edges); });
-  const double a = options.min_ratio;
-  for (float& l : length.data) {
-    const double reach = l / (options.range * target);
-    l = static_cast<float>((a + (1 - a) * (1 - std::exp(-reach * reach))) * target);
+  return with_opencv_errors([&] { return compute(features, field, edge, options, context); });
+}
+
+ScaleField scaled_to_count(const ScaleField& relative, const CrossField& field, double count) {
+  const int w = field.z.width, h = field.z.height;
+  double cells = 0, across = 0, down = 0;
+  FieldGrid<float> horizontal(w, h);  // cos^2 of the x-axis' angle
+  for (std::size_t i = 0; i < field.z.data.size(); ++i) {
+    const float c2 = 0.5f + 0.5f * std::cos(0.5f * std::arg(field.z.data[i]));
+    const double rx = 1.0 / relative.along_x.data[i], ry = 1.0 / relative.along_y.data[i];
+    cells += rx * ry;
+    across += c2 * rx + (1 - c2) * ry;
+    down += (1 - c2) * rx + c2 * ry;
+    horizontal.data[i] = c2;
   }
-  limit_gradient(length, static_cast<float>(options.max_gradient));
-  normalise_count(length, count);
-
-  double reciprocals = 0;
-  for (float l : length.data) reciprocals += 1 / l;
-  const double across = reciprocals / h, down = reciprocals / w;
+  const double factor = std::sqrt(cells / count);
+  across /= factor * h;
+  down /= factor * w;
   const auto [columns, rows] = whole_cells(across, down);
-  const double fit_x = across / columns, fit_y = down / rows;
-
-  ScaleField scale{length, length};
-  for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) {
-      const double angle = field.angle(x, y);
-      const double c2 = std::cos(angle) * std::cos(angle), s2 = 1 - c2;
-      scale.along_x(x, y) *= static_cast<float>(fit_x * c2 + fit_y * s2);
-      scale.along_y(x, y) *= static_cast<float>(fit_x * s2 + fit_y * c2);
-    }
+  const auto fit_x = static_cast<float>(factor * across / columns);
+  const auto fit_y = static_cast<float>(factor * down / rows);
+  ScaleField scale = relative;
+  for (std::size_t i = 0; i < field.z.data.size(); ++i) {
+    const float c2 = horizontal.data[i];
+    scale.along_x.data[i] *= fit_x * c2 + fit_y * (1 - c2);
+    scale.along_y.data[i] *= fit_x * (1 - c2) + fit_y * c2;
   }
   return scale;
 }

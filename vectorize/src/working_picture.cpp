@@ -9,10 +9,10 @@
 namespace quadrille {
 namespace {
 
-constexpr double kPixelsPerEdge = 14;  // a lattice edge is two quad edges
+constexpr double kPixelsPerEdge = 10;  // a lattice edge is two quad edges
 // The fields take about 200 bytes a working pixel.
 constexpr double kMaxPixels = 40e6;
-constexpr double kWorthwhile = 1.25;     // reductions below this blur more than they save
+constexpr double kWorthwhile = 1.05;     // reductions below this blur more than they save
 constexpr double kMinPixelsPerEdge = 8;  // below it regions get too few pixels to be told apart
 
 int working_side(int side, double edge) {

@@ -5,24 +5,43 @@
 
 namespace quadrille {
 
-/// Edge lengths of the lattice per working pixel, in working pixels, along the cross's two axes
-/// (the paper's alpha L and beta L); equal for now.
+/// Edge lengths of the lattice per working pixel, in working pixels, along the cross's two axes:
+/// the paper's alpha L and beta L.
 struct ScaleField {
   FieldGrid<float> along_x;  ///< length along the axis at CrossField::angle
   FieldGrid<float> along_y;  ///< length along the axis at angle + pi/2
 };
 
 struct ScaleOptions {
-  double min_ratio = 0.4;     ///< a_min: smallest length over the largest, in (0, 1]
-  double range = 1.5;         ///< k: distance, in target edges, over which the length grows
-  double max_gradient = 0.2;  ///< bound on |grad length|
+  /// Lengths fall with this power of the colour change along their own axis; 0 gives equal lengths.
+  double grading = 0.5;
+  /// A change below this share of the picture's mean counts as flat; > 0.
+  double flat_share = 0.1;
+  /// Bounds of a length over the mean one, before smoothing; 0 < min_ratio <= 1 <= max_ratio.
+  double min_ratio = 0.3;
+  double max_ratio = 2;
+  /// Bound on the ratio of a cell's two lengths, >= 1.
+  double max_anisotropy = 3;
+  /// How far, in mean edges, lattice lines stay together: more gives fewer irregular vertices and
+  /// less grading; >= 0.
+  double reach = 1.5;
+  /// The wished density beside that of the picture, > 0, any unit; as large as the working picture,
+  /// or empty.
+  FieldGrid<float> density;
 };
 
-/// alpha = a_min + (1 - a_min) (1 - exp(-(E / kL)^2)) with the exact distance E to the nearest
-/// feature line, then gradient-limited and rescaled so that sum 1 / (length_x length_y) is `count`.
-/// Replaces the paper's Eq. 5 and 6, whose exp(E^2/v^2) overflows and whose zero divides by zero.
-/// Where the cross is aligned with the borders, the lengths divide the sides of the picture.
-ScaleField scale_field(const FeatureTensor& features, const CrossField& field, double count,
-                       const ScaleOptions& options = {}, const RunContext& context = {});
+/// Lengths in mean edges of `edge` working pixels. Along each axis of the cross: the mean over a
+/// window of a third of an edge of the colour change along that axis (of the structure tensor
+/// |grad| n n^T, so that parallel features closer than an edge shorten the axis across them and not
+/// the one along them: the paper's beta, Eq. 7), to the power of -grading; then smoothed along the
+/// lattice's lines, axes matched, isotropic near singularities. Replaces the paper's Eq. 5 and 6,
+/// whose exp(E^2/v^2) overflows and whose zero divides by zero. Throws Error{invalid_argument} for
+/// options outside their ranges.
+ScaleField relative_scale(const FeatureTensor& features, const CrossField& field, double edge,
+                          const ScaleOptions& options = {}, const RunContext& context = {});
+
+/// Relative lengths to lengths such that sum 1 / (length_x length_y) is `count` > 0. Where the
+/// cross is aligned with the borders, the lengths divide the sides of the picture.
+ScaleField scaled_to_count(const ScaleField& relative, const CrossField& field, double count);
 
 }  // namespace quadrille

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "quadrille/cross_field.h"
+#include "quadrille/feature_snapping.h"
 #include "quadrille/fit.h"
 #include "quadrille/position_field.h"
 #include "quadrille/quad_extraction.h"
@@ -21,6 +22,7 @@ struct VectorizeOptions {
   CrossFieldOptions cross_field;
   ScaleOptions scale;
   PositionOptions position;
+  SnapOptions snap;
   FitOptions fit;
   /// Use the plain axis-aligned lattice instead of the fields.
   bool lattice = false;

@@ -4,7 +4,7 @@
 
 namespace quadrille {
 
-/// The copy of the picture on which the fields are solved. A working pixel is about 1/7 of the quad
+/// The copy of the picture on which the fields are solved. A working pixel is about 1/5 of the quad
 /// edge that the fields are made for, so that the cost follows the quads; it is coarser or, for
 /// small pictures with many quads, finer than a source pixel.
 struct WorkingPicture {

@@ -1,0 +1,242 @@
+#include "quadrille/feature_snapping.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "parallel.h"
+#include "quadrille/error.h"
+
+namespace quadrille {
+namespace {
+
+using Colour = Eigen::Vector4f;
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+constexpr double kReach = 0.5;         // of a cell's width, on either side of an edge
+constexpr double kSampleSpacing = 3;   // pixels along an edge
+constexpr int kMaxSamples = 16;        // along an edge
+constexpr int kStepsPerSide = 8;       // across an edge
+constexpr double kFinestStep = 0.5;    // pixels across an edge
+constexpr double kNoise = 0.06;        // contrasts below it carry little weight, sRGB units
+constexpr double kStiffness = 0.3;     // pull toward staying, beside a full-contrast edge's 1
+constexpr double kEvenness = 0.1;      // pull toward the mean of the neighbours
+constexpr double kLongestStep = 0.35;  // of the shortest edge at a vertex
+constexpr int kItemCost = 64;          // of a quad or an edge, in the pixels of parallel_rows
+constexpr double kLongCell = 3;        // cells count as at most this many edge lengths wide
+
+/// Premultiplied colours.
+class Colours {
+ public:
+  explicit Colours(const Raster& picture) : picture_(picture) {}
+  Colour pixel(int x, int y) const {
+    const std::size_t i = static_cast<std::size_t>(y) * picture_.width + x;
+    const float* p = picture_.data.data() + i * picture_.channels;
+    if (!picture_.has_alpha()) return {p[0], p[1], p[2], 0};
+    return {p[0] * p[3], p[1] * p[3], p[2] * p[3], p[3]};
+  }
+  /// Bilinear between pixel centres, constant outside them.
+  Colour at(const Vector2d& p) const {
+    const double x = std::clamp(p.x() - 0.5, 0.0, picture_.width - 1.0);
+    const double y = std::clamp(p.y() - 0.5, 0.0, picture_.height - 1.0);
+    const int i = static_cast<int>(x), j = static_cast<int>(y);
+    const int i1 = std::min(i + 1, picture_.width - 1), j1 = std::min(j + 1, picture_.height - 1);
+    const auto u = static_cast<float>(x - i), v = static_cast<float>(y - j);
+    return (1 - v) * ((1 - u) * pixel(i, j) + u * pixel(i1, j)) +
+           v * ((1 - u) * pixel(i, j1) + u * pixel(i1, j1));
+  }
+  int width() const { return picture_.width; }
+  int height() const { return picture_.height; }
+
+ private:
+  const Raster& picture_;
+};
+
+double area(const QuadMesh& mesh, int q) {
+  const auto& c = mesh.quads()[q];
+  const Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
+  const Vector2d e = mesh.vertices[c[3]] - mesh.vertices[c[1]];
+  return 0.5 * (d.x() * e.y() - d.y() * e.x());
+}
+
+/// The part of row `y` that lies in a convex quad.
+std::array<double, 2> row_span(const std::array<Vector2d, 4>& corners, double y) {
+  double left = 1e300, right = -1e300;
+  for (int k = 0; k < 4; ++k) {
+    const Vector2d &a = corners[k], &b = corners[(k + 1) & 3];
+    if ((a.y() <= y) == (b.y() <= y)) continue;
+    const double x = a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    left = std::min(left, x);
+    right = std::max(right, x);
+  }
+  return {left, right};
+}
+
+Colour mean_colour(const QuadMesh& mesh, int q, const Colours& colours) {
+  std::array<Vector2d, 4> corners;
+  double top = 1e300, bottom = -1e300;
+  for (int k = 0; k < 4; ++k) {
+    corners[k] = mesh.vertices[mesh.quads()[q][k]];
+    top = std::min(top, corners[k].y());
+    bottom = std::max(bottom, corners[k].y());
+  }
+  Colour sum = Colour::Zero();
+  int count = 0;
+  const int first = std::max(0, static_cast<int>(std::ceil(top - 0.5)));
+  const int last = std::min(colours.height() - 1, static_cast<int>(std::floor(bottom - 0.5)));
+  for (int y = first; y <= last; ++y) {
+    const auto [left, right] = row_span(corners, y + 0.5);
+    if (left > right) continue;
+    const int begin = std::max(0, static_cast<int>(std::ceil(left - 0.5)));
+    const int end = std::min(colours.width() - 1, static_cast<int>(std::floor(right - 0.5)));
+    for (int x = begin; x <= end; ++x) sum += colours.pixel(x, y);
+    count += std::max(0, end - begin + 1);
+  }
+  if (count > 0) return sum / static_cast<float>(count);
+  return colours.at(0.25 * (corners[0] + corners[1] + corners[2] + corners[3]));
+}
+
+/// What an edge asks of its two ends: normal equations of least squares.
+struct Pull {
+  Matrix2d matrix[2] = {Matrix2d::Zero(), Matrix2d::Zero()};
+  Vector2d wish[2] = {Vector2d::Zero(), Vector2d::Zero()};
+};
+
+/// Signed distance along `normal` from `start` to the cheapest split between the colour `near` (at
+/// the start) and `far`, at most `reach`, and its gain over no move; improves on what is passed in.
+void seek_split(const Colours& colours, const Vector2d& start, const Vector2d& normal, double reach,
+                double step, const Colour& near, const Colour& far, double sign, double& offset,
+                double& cost) {
+  double total = 0;
+  for (double s = 0.5 * step; s < reach; s += step) {
+    const Colour here = colours.at(start + sign * s * normal);
+    total += ((here - far).squaredNorm() - (here - near).squaredNorm()) * step;
+    if (total < cost) cost = total, offset = sign * (s + 0.5 * step);
+  }
+}
+
+Pull edge_pull(const QuadMesh& mesh, int e, const std::vector<Colour>& means,
+               const Colours& colours) {
+  Pull pull;
+  const int h = mesh.halfedge(e), twin = mesh.twin(h);
+  if (twin < 0) return pull;
+  const Vector2d start = mesh.vertices[mesh.origin(h)];
+  const Vector2d along = mesh.vertices[mesh.tip(h)] - start;
+  const double length = along.norm();
+  if (!(length > 0)) return pull;
+  const Vector2d normal(-along.y() / length, along.x() / length);  // into the quad of h
+  const int inner = QuadMesh::quad_of(h), outer = QuadMesh::quad_of(twin);
+  const double contrast2 = (means[inner] - means[outer]).squaredNorm();
+  const double weight = contrast2 / (contrast2 + kNoise * kNoise);
+  const double width_in = std::min(area(mesh, inner) / length, kLongCell * length);
+  const double width_out = std::min(area(mesh, outer) / length, kLongCell * length);
+  const double step = std::max(kFinestStep, kReach * std::max(width_in, width_out) / kStepsPerSide);
+  const int samples =
+      std::clamp(static_cast<int>(std::ceil(length / kSampleSpacing)), 2, kMaxSamples);
+  const double sample_weight = weight * 2 * length / (samples * (width_in + width_out));
+  for (int k = 0; k < samples; ++k) {
+    const double t = (k + 0.5) / samples;
+    const Vector2d place = start + t * along;
+    double offset = 0, cost = 0;
+    // Moving into the inner quad gives its pixels to the outer one.
+    seek_split(colours, place, normal, kReach * width_in, step, means[inner], means[outer], 1,
+               offset, cost);
+    seek_split(colours, place, normal, kReach * width_out, step, means[outer], means[inner], -1,
+               offset, cost);
+    // A clear step saves its whole contrast per pixel; what saves less, noise or a ramp, pulls
+    // less.
+    if (offset != 0) offset *= std::min(1.0, -cost / (contrast2 * std::abs(offset)));
+    for (int end = 0; end < 2; ++end) {
+      const double share = sample_weight * (end == 0 ? 1 - t : t);
+      pull.matrix[end] += share * normal * normal.transpose();
+      pull.wish[end] += share * offset * normal;
+    }
+  }
+  return pull;
+}
+
+double smallest_sine_around(const QuadMesh& mesh, int v) {
+  double smallest = 1;
+  for (const int h : mesh.fan(v)) {
+    smallest = std::min(smallest, scaled_jacobian(mesh, QuadMesh::quad_of(h)));
+  }
+  return smallest;
+}
+
+/// What a border vertex may do: slide along an axis, or nothing.
+Vector2d allowed(const QuadMesh& mesh, int v, const Vector2d& step) {
+  if (!mesh.is_border_vertex(v)) return step;
+  const int out = mesh.fan(v).front(), in = QuadMesh::prev(mesh.fan(v).back());
+  const Vector2d &before = mesh.vertices[mesh.origin(in)], &here = mesh.vertices[v],
+                 &after = mesh.vertices[mesh.tip(out)];
+  Vector2d slide = Vector2d::Zero();
+  for (int axis = 0; axis < 2; ++axis) {
+    if (before[1 - axis] == here[1 - axis] && here[1 - axis] == after[1 - axis]) {
+      slide[axis] = step[axis];
+    }
+  }
+  return slide;
+}
+
+void move_vertex(QuadMesh& mesh, int v, const Matrix2d& matrix, const Vector2d& wish,
+                 double min_sine) {
+  const Vector2d here = mesh.vertices[v];
+  Vector2d even = Vector2d::Zero();
+  double shortest = 1e300;
+  const auto meet = [&](int neighbour) {
+    const Vector2d edge = mesh.vertices[neighbour] - here;
+    even += edge / mesh.valence(v);
+    shortest = std::min(shortest, edge.norm());
+  };
+  for (const int h : mesh.fan(v)) meet(mesh.tip(h));
+  if (mesh.is_border_vertex(v)) meet(mesh.origin(QuadMesh::prev(mesh.fan(v).back())));
+  const Matrix2d stiff = matrix + kStiffness * Matrix2d::Identity();
+  Vector2d step = allowed(mesh, v, stiff.inverse() * (wish + kEvenness * even));
+  const double length = step.norm(), most = kLongestStep * shortest;
+  if (!(length > 0)) return;
+  if (length > most) step *= most / length;
+  const double acceptable = std::min(min_sine, smallest_sine_around(mesh, v));
+  for (const double share : {1.0, 0.5, 0.25}) {
+    mesh.vertices[v] = here + share * step;
+    if (smallest_sine_around(mesh, v) >= acceptable) return;
+  }
+  mesh.vertices[v] = here;
+}
+
+}  // namespace
+
+void snap_to_features(QuadMesh& mesh, const Raster& picture, const SnapOptions& options,
+                      const RunContext& context) {
+  check_raster(picture);
+  if (options.rounds < 0 || !(options.min_corner_sine > 0 && options.min_corner_sine < 1)) {
+    throw Error(ErrorCode::invalid_argument,
+                "snapping needs a number of rounds and a corner sine between 0 and 1");
+  }
+  const Colours colours(picture);
+  std::vector<Colour> means(mesh.quad_count());
+  std::vector<Pull> pulls(mesh.edge_count());
+  for (int round = 0; round < options.rounds; ++round) {
+    context.progress("snapping", static_cast<double>(round) / options.rounds);
+    parallel_rows(context, mesh.quad_count(), kItemCost,
+                  [&](int q) { means[q] = mean_colour(mesh, q, colours); });
+    parallel_rows(context, mesh.edge_count(), kItemCost,
+                  [&](int e) { pulls[e] = edge_pull(mesh, e, means, colours); });
+    std::vector<Matrix2d> matrix(mesh.vertex_count(), Matrix2d::Zero());
+    std::vector<Vector2d> wish(mesh.vertex_count(), Vector2d::Zero());
+    for (int e = 0; e < mesh.edge_count(); ++e) {
+      const int h = mesh.halfedge(e);
+      const int ends[2] = {mesh.origin(h), mesh.tip(h)};
+      for (int end = 0; end < 2; ++end) {
+        matrix[ends[end]] += pulls[e].matrix[end];
+        wish[ends[end]] += pulls[e].wish[end];
+      }
+    }
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+      move_vertex(mesh, v, matrix[v], wish[v], options.min_corner_sine);
+    }
+  }
+}
+
+}  // namespace quadrille
