@@ -9,12 +9,45 @@ namespace quadrille {
 namespace {
 
 constexpr int kLongestChain = 4;  // faces; 5 remove a little more at twice the cost
-constexpr int kMostRounds = 3;
+constexpr int kMostRounds = 2;
 constexpr int kMostTries = 6;  // candidates at one place that may fail the guard
 
 class Cleaner {
  public:
   explicit Cleaner(FaceMesh& mesh) : mesh_(mesh), editor_(mesh) {}
+
+  /// Short chains first; true when anything changed.
+  bool redivide_all() {
+    bool changed = false;
+    for (int length = 2; length <= kLongestChain; ++length) {
+      for (int f = 0; f < mesh_.face_slots(); ++f) {
+        // Two faces exchange an edge; longer chains bring triangles together.
+        const bool is_start = length == 2 ? is_irregular(f) : mesh_.face(f).size == 3;
+        if (is_start) changed = redivide(f, length) || changed;
+      }
+    }
+    return changed;
+  }
+
+  bool collapse_all() {
+    bool changed = false;
+    for (int f = 0; f < mesh_.face_slots(); ++f) {
+      if (is_irregular(f)) changed = collapse(f) || changed;
+    }
+    return changed;
+  }
+
+ private:
+  struct Candidate {
+    int change;      // of the irregularity
+    double quality;  // of the worst face before smoothing
+    FaceEdit edit;
+  };
+
+  FaceMesh& mesh_;
+  GuardedEditor editor_;
+  std::vector<int> chain_, outline_;
+  std::vector<Candidate> candidates_;
 
   bool redivide(int f, int length) {
     const Face& face = mesh_.face(f);
@@ -41,18 +74,6 @@ class Cleaner {
     return face.size == 3 || std::any_of(face.vertex.begin(), face.vertex.begin() + face.size,
                                          [&](int v) { return mesh_.excess(v) != 0; });
   }
-
- private:
-  struct Candidate {
-    int change;      // of the irregularity
-    double quality;  // of the worst face before smoothing
-    FaceEdit edit;
-  };
-
-  FaceMesh& mesh_;
-  GuardedEditor editor_;
-  std::vector<int> chain_, outline_;
-  std::vector<Candidate> candidates_;
 
   bool carry_out_best() {
     std::stable_sort(candidates_.begin(), candidates_.end(),
@@ -115,7 +136,7 @@ class Cleaner {
     for (const int f : chain_) before += mesh_.face(f).size == 3;
     for (int i = 0; i < n; ++i) {
       const int excess = mesh_.excess(outline_[i]);
-      before += excess * excess;
+      before += mesh_.penalty(outline_[i], excess);
       outside[i] = excess;
       for (const int f : chain_) outside[i] -= mesh_.face(f).corner_of(outline_[i]) >= 0;
     }
@@ -123,8 +144,7 @@ class Cleaner {
     for (const PolygonDivision& division : polygon_divisions(n)) {
       int after = n % 2;
       for (int i = 0; i < n; ++i) {
-        const int excess = outside[i] + division.pieces_at[i];
-        after += excess * excess;
+        after += mesh_.penalty(outline_[i], outside[i] + division.pieces_at[i]);
       }
       if (after < before) add_division(division, after - before);
     }
@@ -155,19 +175,9 @@ class Cleaner {
 
 void clean_up(FaceMesh& mesh) {
   Cleaner cleaner(mesh);
-  for (int round = 0; round < kMostRounds; ++round) {
-    bool changed = false;
-    for (int length = 2; length <= kLongestChain; ++length) {
-      for (int f = 0; f < mesh.face_slots(); ++f) {
-        const bool is_start = length == 2 ? cleaner.is_irregular(f) : mesh.face(f).size == 3;
-        if (is_start) changed = cleaner.redivide(f, length) || changed;
-      }
-    }
-    for (int f = 0; f < mesh.face_slots(); ++f) {
-      if (cleaner.is_irregular(f)) changed = cleaner.collapse(f) || changed;
-    }
-    if (!changed) return;
+  for (int round = 0; round < kMostRounds && cleaner.redivide_all(); ++round) {
   }
+  if (cleaner.collapse_all()) cleaner.redivide_all();
 }
 
 }  // namespace quadrille

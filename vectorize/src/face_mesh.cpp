@@ -40,6 +40,7 @@ FaceMesh::FaceMesh(std::vector<Vector2d> positions, const std::vector<std::vecto
       faces_at_(points.size()),
       regular_(points.size(), 4),
       is_border_(points.size(), 0),
+      is_corner_(points.size(), 0),
       has_kept_edge_(points.size(), 0) {
   for (const std::vector<int>& corners : faces) {
     Face face;
@@ -70,6 +71,7 @@ void FaceMesh::find_border() {
     const Vector2d in = points[v] - points[before[v]], out = points[after[v]] - points[v];
     const bool is_straight =
         std::abs(cross(in, out)) <= kStraight * in.norm() * out.norm() && in.dot(out) > 0;
+    is_corner_[v] = regular_[v] == 1;
     guides[v] = is_straight ? VertexGuide::on_line(points[v], (in + out).normalized())
                             : VertexGuide::at(points[v]);
   }
@@ -104,7 +106,7 @@ void FaceMesh::collect_star(int v, std::vector<StarWedge>& wedges) const {
 int FaceMesh::irregularity() const {
   int sum = 0;
   for (int v = 0; v < vertex_count(); ++v) {
-    if (!faces_at_[v].empty()) sum += excess(v) * excess(v);
+    if (!faces_at_[v].empty()) sum += penalty(v, excess(v));
   }
   for (const Face& face : faces_) sum += face.size == 3;
   return sum;
@@ -127,7 +129,7 @@ int FaceMesh::irregularity_change(const FaceEdit& edit) const {
     const int after = before + static_cast<int>(std::count(gained.begin(), gained.end(), v) -
                                                 std::count(lost.begin(), lost.end(), v));
     const bool vanishes = after + regular_[v] == 0;
-    sum += (vanishes ? 0 : after * after) - before * before;
+    sum += (vanishes ? 0 : penalty(v, after)) - penalty(v, before);
   }
   return sum;
 }

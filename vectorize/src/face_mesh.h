@@ -57,6 +57,9 @@ class FaceMesh {
   bool is_kept(int a, int b) const;
   /// Faces at v beyond the regular number.
   int excess(int v) const { return static_cast<int>(faces_at_[v].size()) - regular_[v]; }
+  /// What v adds to the irregularity with this excess: its square, four times that at the corners
+  /// of the border, where no shape makes up for it.
+  int penalty(int v, int excess) const { return excess * excess * (is_corner_[v] ? 4 : 1); }
   /// The face with the directed edge from a to b; -1 outside.
   int face_with(int a, int b) const;
   /// The face across the edge from corner k of f to the next; -1 outside.
@@ -64,7 +67,7 @@ class FaceMesh {
   /// The faces around v as its star in which it can be moved.
   void collect_star(int v, std::vector<StarWedge>& wedges) const;
 
-  /// Sum of squared excesses, plus one for every triangle.
+  /// Sum of the vertices' penalties, plus one for every triangle.
   int irregularity() const;
   /// By how much an edit would change it.
   int irregularity_change(const FaceEdit& edit) const;
@@ -86,7 +89,7 @@ class FaceMesh {
   std::vector<int> unused_;  // slots
   std::vector<std::vector<int>> faces_at_;
   std::vector<int> regular_;  // wished number of faces at each vertex
-  std::vector<char> is_border_;
+  std::vector<char> is_border_, is_corner_;
   std::set<std::array<int, 2>> kept_edges_;
   std::vector<char> has_kept_edge_;
 

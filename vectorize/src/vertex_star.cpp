@@ -11,7 +11,8 @@ using Eigen::Vector2d;
 
 constexpr double kParallel = 1e-9;  // sine below which directions count as the same
 constexpr int kNewtonSteps = 3;
-constexpr int kHalvings = 6;
+constexpr int kHalvings = 7;
+constexpr double kBoldest = 2;  // first try, in Newton steps: those are short near the barrier
 // In units of the mean edge at the vertex:
 constexpr double kUntangling = 0.05;     // d^2 of the replaced determinant
 constexpr double kConverged = 1e-3;      // length of a step
@@ -161,7 +162,7 @@ Vector2d VertexStar::improved(const Vector2d& start, const VertexGuide& guide,
     const Vector2d step = newton_step(energy.slope(p), guide, kLeastCurvature / energy.edge2());
     const double length = step.norm();
     if (!(length > kConverged * edge)) return p;
-    double share = std::min(1.0, kLargestStep * edge / length);
+    double share = std::min(kBoldest, kLargestStep * edge / length);
     bool is_lower = false;
     for (int k = 0; k < kHalvings && !is_lower; ++k, share /= 2) {
       const Vector2d q = on_guide(p + share * step, guide);
