@@ -9,6 +9,7 @@
 #include <map>
 
 #include "convex_faces.h"
+#include "face_cleanup.h"
 #include "lattice_graph.h"
 #include "shape_smoothing.h"
 #include "triangulation.h"
@@ -51,33 +52,6 @@ Triangulation triangulate(const LatticeGraph& graph, double scale_x, double scal
   return triangulation;
 }
 
-/// Catmull-Clark connectivity: every n-gon becomes n quads around its centre, joined at the
-/// midpoints of its edges. Faces are strictly convex, so all quads are.
-QuadMesh split_faces(std::vector<Eigen::Vector2d> points,
-                     const std::vector<std::vector<int>>& faces) {
-  std::map<std::array<int, 2>, int> midpoints;
-  const auto midpoint = [&](int a, int b) {
-    const auto [it, is_new] =
-        midpoints.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(points.size()));
-    if (is_new) points.push_back(0.5 * (points[a] + points[b]));
-    return it->second;
-  };
-  std::vector<QuadMesh::Quad> quads;
-  for (const std::vector<int>& face : faces) {
-    const int n = static_cast<int>(face.size());
-    Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-    for (const int v : face) centre += points[v] / n;
-    const int c = static_cast<int>(points.size());
-    points.push_back(centre);
-    for (int k = 0; k < n; ++k) {
-      const int before = midpoint(face[(k + n - 1) % n], face[k]);
-      const int after = midpoint(face[k], face[(k + 1) % n]);
-      quads.push_back({face[k], after, c, before});
-    }
-  }
-  return QuadMesh(std::move(points), std::move(quads));
-}
-
 }  // namespace
 
 QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
@@ -92,8 +66,11 @@ QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
   for (const GridPoint& p : triangulation.points()) {
     points.emplace_back(static_cast<double>(p.x) / units, static_cast<double>(p.y) / units);
   }
-  QuadMesh mesh = split_faces(std::move(points), convex_faces(triangulation));
-  smooth_bad_quads(mesh, width, height);
+  FaceMesh faces(std::move(points), convex_faces(triangulation));
+  clean_up(faces);
+  std::vector<VertexGuide> guides;
+  QuadMesh mesh = faces.split(guides);
+  smooth_shape(mesh, guides);
   return mesh;
 }
 

@@ -1,63 +1,40 @@
 #include "shape_smoothing.h"
 
-#include <algorithm>
+#include <vector>
 
 namespace quadrille {
 namespace {
 
-constexpr double kGoodEnough = 0.55;  // corner sine above which a quad is left alone
-constexpr int kRounds = 12;
+constexpr double kGoodSine = 0.7;  // smallest corner sine above which a vertex is left alone
+constexpr double kHold = 1;        // see VertexStar::improved()
+constexpr int kSweeps = 4;
 
-double smallest_sine_around(const QuadMesh& mesh, int v) {
-  double smallest = 1;
-  for (const int h : mesh.fan(v)) smallest = std::min(smallest, scaled_jacobian(mesh, h >> 2));
-  return smallest;
-}
-
-Eigen::Vector2d mean_of_neighbours(const QuadMesh& mesh, int v) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  const auto fan = mesh.fan(v);
-  for (const int h : fan) sum += mesh.vertices[mesh.tip(h)];
-  return sum / static_cast<double>(fan.size());
-}
-
-Eigen::Vector2d mean_of_diagonals(const QuadMesh& mesh, int v) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  const auto fan = mesh.fan(v);
-  for (const int h : fan) sum += mesh.vertices[mesh.tip(QuadMesh::next(h))];
-  return sum / static_cast<double>(fan.size());
-}
-
-/// Keeps a border vertex on its side; corners of the picture do not move.
-Eigen::Vector2d allowed_step(const Eigen::Vector2d& p, Eigen::Vector2d step, double width,
-                             double height) {
-  if (p.x() == 0 || p.x() == width) step.x() = 0;
-  if (p.y() == 0 || p.y() == height) step.y() = 0;
-  return step;
-}
-
-bool improve(QuadMesh& mesh, int v, double before, double width, double height) {
-  const Eigen::Vector2d p = mesh.vertices[v];
-  for (const Eigen::Vector2d& target : {mean_of_neighbours(mesh, v), mean_of_diagonals(mesh, v)}) {
-    const Eigen::Vector2d step = allowed_step(p, target - p, width, height);
-    if (step.isZero()) continue;
-    for (const double share : {1.0, 0.5, 0.2}) {
-      mesh.vertices[v] = p + share * step;
-      if (smallest_sine_around(mesh, v) > before + 1e-3) return true;
-    }
+void collect_star(const QuadMesh& mesh, int v, std::vector<StarWedge>& wedges) {
+  wedges.clear();
+  for (const int h : mesh.fan(v)) {
+    const Eigen::Vector2d& opposite = mesh.vertices[mesh.tip(QuadMesh::next(h))];
+    wedges.push_back({opposite, mesh.vertices[mesh.origin(QuadMesh::prev(h))],
+                      mesh.vertices[mesh.tip(h)], opposite});
   }
-  mesh.vertices[v] = p;
-  return false;
 }
 
 }  // namespace
 
-void smooth_bad_quads(QuadMesh& mesh, double width, double height) {
-  for (int round = 0; round < kRounds; ++round) {
+void smooth_shape(QuadMesh& mesh, std::span<const VertexGuide> guides) {
+  const std::vector<Eigen::Vector2d> anchors = mesh.vertices;
+  std::vector<StarWedge> wedges;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
     bool moved = false;
     for (int v = 0; v < mesh.vertex_count(); ++v) {
-      const double before = smallest_sine_around(mesh, v);
-      if (before < kGoodEnough) moved = improve(mesh, v, before, width, height) || moved;
+      collect_star(mesh, v, wedges);
+      const VertexStar star(wedges);
+      Eigen::Vector2d& p = mesh.vertices[v];
+      const double before = star.smallest_sine(p);
+      if (before >= kGoodSine) continue;
+      const Eigen::Vector2d q = star.improved(p, guides[v], anchors[v], kHold);
+      if (q == p || star.smallest_sine(q) < before) continue;
+      p = q;
+      moved = true;
     }
     if (!moved) return;
   }

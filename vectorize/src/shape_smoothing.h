@@ -1,13 +1,17 @@
 #pragma once
 
+#include <span>
+
 #include "quadrille/quad_mesh.h"
+#include "vertex_star.h"
 
 namespace quadrille {
 
-/// Moves vertices of badly shaped quads toward the mean of their neighbours where, and as far as,
-/// the smallest corner sine of the quads around them grows; border vertices slide along their side.
-/// Positive corners stay positive. Well-shaped regions, and with them the alignment to features,
-/// are left alone.
-void smooth_bad_quads(QuadMesh& mesh, double width, double height);
+/// Moves the vertices of badly shaped quads along their guides (one per vertex) toward the least
+/// shape energy of their star, see VertexStar, held back by a spring to where they were. A vertex
+/// moves only if the smallest corner sine around it does not fall, so positive corners stay
+/// positive. Well-shaped regions, and with them the alignment to features and the grading, are left
+/// alone: a pass over all vertices costs more in the picture than it gains in shape.
+void smooth_shape(QuadMesh& mesh, std::span<const VertexGuide> guides);
 
 }  // namespace quadrille
