@@ -19,7 +19,7 @@ struct CrossField {
 
 struct CrossFieldOptions {
   /// lambda, the weight of alignment to features against smoothness (> 0).
-  double alignment = 0.05;
+  double alignment = 0.1;
   /// Rounds of renormalisation after the linear solve, and the weight mu of the pull toward unit
   /// length; they remove 10 to 60 % of the singularities.
   int renormalizing_rounds = 5;

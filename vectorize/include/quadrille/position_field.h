@@ -13,7 +13,7 @@ struct PositionField {
 };
 
 struct PositionOptions {
-  int sweeps = 6;               ///< smoothing sweeps per level of the hierarchy
+  int sweeps = 4;               ///< smoothing sweeps per level of the hierarchy
   double feature_weight = 0.2;  ///< c of the projection onto features, 0 to 1
 };
 

@@ -24,7 +24,7 @@ struct ScaleOptions {
   double max_anisotropy = 3;
   /// How far, in mean edges, lattice lines stay together: more gives fewer irregular vertices and
   /// less grading; >= 0.
-  double reach = 1.5;
+  double reach = 1;
   /// The wished density beside that of the picture, > 0, any unit; as large as the working picture,
   /// or empty.
   FieldGrid<float> density;
