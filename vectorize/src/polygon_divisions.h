@@ -15,7 +15,7 @@ struct PolygonDivision {
   std::vector<int> pieces_at;  ///< for each corner
 };
 
-inline constexpr int kMostDivided = 12;  ///< corners of the largest polygon with a table
+inline constexpr int kMostDivided = 10;  ///< corners of the largest polygon with a table
 
 /// All divisions of a polygon with n corners, 4 <= n <= kMostDivided, into as many quads as
 /// possible.

@@ -7,9 +7,10 @@ namespace quadrille {
 
 /// Pure quad mesh of the rectangle [0, width] x [0, height] (source pixels) from the fields:
 /// regions of pixels that share a lattice point become vertices, shifts of one become edges, their
-/// constrained Delaunay triangulation is merged into convex faces, and every face is divided
-/// once (an n-gon into n quads). The faces tile the rectangle and keep their orientation whatever
-/// the fields are; see validate().
+/// constrained Delaunay triangulation is merged into convex faces, chains of faces are re-divided
+/// to be more regular, every face is divided once (an n-gon into n quads), and badly shaped quads
+/// are smoothed. The faces tile the rectangle and keep their orientation whatever the fields are;
+/// see validate().
 QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
                        const ScaleField& scale, const PositionField& positions, double width,
                        double height, const RunContext& context = {});
