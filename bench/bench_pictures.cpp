@@ -3,18 +3,20 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "picture_run.h"
+#include "pictures.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+using quadrille::bench::PictureChoice;
 using quadrille::bench::PictureRunOptions;
+using quadrille::bench::pictures_in;
 using quadrille::bench::run_picture;
 
 constexpr int kNameWidth = 26;
@@ -25,19 +27,6 @@ struct Row {
   std::string name;
   Json json;
 };
-
-std::vector<fs::path> pictures_in(const fs::path& folder, const std::string& only, int limit) {
-  std::vector<fs::path> pictures;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string ending = entry.path().extension().string();
-    if (ending != ".png" && ending != ".jpg") continue;
-    if (entry.path().filename().string().find(only) == std::string::npos) continue;
-    pictures.push_back(entry.path());
-  }
-  std::ranges::sort(pictures);
-  if (limit > 0 && pictures.size() > static_cast<std::size_t>(limit)) pictures.resize(limit);
-  return pictures;
-}
 
 /// The mean of a number over the rows that have it.
 double mean(const std::vector<Row>& rows, const Json::json_pointer& at) {
@@ -126,11 +115,11 @@ void print_files(const std::vector<Row>& rows) {
 }
 
 /// Returns whether every picture went through.
-bool run_folder(const fs::path& folder, const std::string& only, int limit,
+bool run_folder(const fs::path& folder, const PictureChoice& choice,
                 const PictureRunOptions& options) {
   std::vector<Row> rows;
   bool good = true;
-  for (const fs::path& picture : pictures_in(folder, only, limit)) {
+  for (const fs::path& picture : pictures_in(folder, choice)) {
     Json json = run_picture(picture, options);
     if (json.contains("error")) {
       fmt::print(stderr, "{}: {}\n", picture.string(), json["error"].get<std::string>());
@@ -155,35 +144,21 @@ bool run_folder(const fs::path& folder, const std::string& only, int limit,
 int main(int argc, char** argv) {
   CLI::App parser("Quality, time, memory and file sizes over the sample pictures");
   PictureRunOptions options;
-  std::string only;
-  int limit = 0;
+  PictureChoice choice;
   bool no_files = false;
   std::vector<std::string> folders;
   parser.add_option("--quads", options.quads, "wished quads")->check(CLI::Range(1, 2'000'000));
   parser.add_option("--threads", options.threads, "worker threads, 0 for all");
-  parser.add_option("--only", only, "only pictures whose name has this text");
-  parser.add_option("--limit", limit, "at most this many pictures per folder");
+  parser.add_option("--only", choice.only, "only pictures whose name has this text");
+  parser.add_option("--limit", choice.limit, "at most this many pictures per folder");
   parser.add_flag("--no-files", no_files, "leave the exports out");
   parser.add_option("FOLDERS", folders, "folders to run instead of the usual ones");
   CLI11_PARSE(parser, argc, argv);
   options.files = !no_files;
 
-  if (folders.empty()) {
-    const fs::path root = QUADRILLE_SOURCE_DIR;
-    const char* elsewhere = std::getenv("QUADRILLE_RESEARCH");
-    const fs::path research = elsewhere ? fs::path(elsewhere) : root / "../shared/research";
-    folders = {(root / "samples/pictures").string(), (research / "bsds500").lexically_normal()};
-  }
   bool good = true;
-  for (const std::string& folder : folders) {
-    if (!fs::is_directory(folder)) {
-      fmt::print(
-          "{}: no such folder, skipped; QUADRILLE_RESEARCH names the folder that holds "
-          "bsds500\n",
-          folder);
-      continue;
-    }
-    good &= run_folder(folder, only, limit, options);
+  for (const fs::path& folder : quadrille::bench::picture_folders(folders)) {
+    good &= run_folder(folder, choice, options);
   }
   return good ? 0 : 1;
 }

@@ -2,17 +2,15 @@
 
 #include <fmt/core.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 
+#include "own_process.h"
 #include "quadrille/export.h"
 #include "quadrille/image_file.h"
 #include "quadrille/metrics.h"
@@ -119,39 +117,10 @@ Json measure_picture(const fs::path& path, const PictureRunOptions& run) {
   return json;
 }
 
-Json caught(const fs::path& path, const PictureRunOptions& options) {
-  try {
-    return measure_picture(path, options);
-  } catch (const std::exception& error) {
-    return {{"error", error.what()}};
-  }
-}
-
 }  // namespace
 
 Json run_picture(const fs::path& picture, const PictureRunOptions& options) {
-  std::FILE* answer = std::tmpfile();
-  if (!answer) throw std::runtime_error("cannot make a temporary file");
-  std::fflush(nullptr);
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("cannot start a process");
-  if (child == 0) {
-    const std::string text =
-        caught(picture, options).dump(-1, ' ', false, Json::error_handler_t::replace);
-    std::fwrite(text.data(), 1, text.size(), answer);
-    std::fflush(answer);
-    _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  std::rewind(answer);
-  std::string text;
-  for (int c; (c = std::fgetc(answer)) != EOF;) text += static_cast<char>(c);
-  std::fclose(answer);
-  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (json.is_object()) return json;
-  return {{"error", WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
-                                        : "gave no answer"}};
+  return run_in_own_process([&] { return measure_picture(picture, options); });
 }
 
 }  // namespace quadrille::bench
