@@ -33,7 +33,7 @@ VectorizeOptions MeshOptions::vectorize_options() const {
 }
 
 void declare_quad_options(CLI::App& parser, MeshOptions& options) {
-  parser.add_option("--quads", options.quads, "wished number of quads, met within 10 % from 20 up")
+  parser.add_option("--quads", options.quads, "wished number of quads, met within 5 % from 200 up")
       ->check(CLI::Range(1, kMaxQuads))
       ->capture_default_str();
   parser.add_flag("--lattice", options.lattice,

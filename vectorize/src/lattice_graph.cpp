@@ -13,7 +13,9 @@ namespace {
 constexpr float kFeatureEmphasis = 8;    // weight of a pixel on a feature line beside others' 1
 constexpr double kFragmentShare = 0.12;  // regions below this share of a lattice cell are noise
 constexpr double kBorderReach = 0.35;    // points nearer to a side, in spacings, move onto it
-constexpr double kClosest = 0.5;         // least distance between points, in spacings
+constexpr float kWidestRegion = 1.0f;    // distance of lattice points in a region, in spacings
+constexpr double kWidestGap = 3.2;  // between points on a side, in spacings of the shorter axis
+constexpr double kClosest = 0.5;    // least distance between points, in spacings
 
 /// Shift from each pixel to its right and lower neighbour.
 struct Shifts {
@@ -105,6 +107,30 @@ std::vector<Region> measure_regions(const FieldGrid<int>& labels, int count,
     ++region.pixels;
   }
   return regions;
+}
+
+/// Chains of small differences may unite pixels whose lattice points lie far apart. Divides such
+/// regions into parts of pixels with lattice points near to each other.
+void divide_wide_regions(FieldGrid<int>& labels, int& count, const ScaleField& scale,
+                         const PositionField& positions) {
+  struct Part {
+    Eigen::Vector2f origin;
+    int label;
+  };
+  std::vector<std::vector<Part>> parts(count);
+  for (std::size_t i = 0; i < labels.data.size(); ++i) {
+    const Eigen::Vector2f& origin = positions.origin.data[i];
+    const float reach = kWidestRegion * std::min(scale.along_x.data[i], scale.along_y.data[i]);
+    auto& known = parts[labels.data[i]];
+    const auto near = std::ranges::find_if(
+        known, [&](const Part& part) { return (part.origin - origin).norm() <= reach; });
+    if (near != known.end()) {
+      labels.data[i] = near->label;
+      continue;
+    }
+    known.push_back({origin, known.empty() ? labels.data[i] : count++});
+    labels.data[i] = known.back().label;
+  }
 }
 
 /// Accepts points one by one, keeping a distance; finds the accepted point near a place.
@@ -201,6 +227,33 @@ std::vector<int> place_points(const std::vector<Region>& regions, double width, 
   return point_of;
 }
 
+/// Where the lattice beside a side is broken into fragments, points may be missing there: adds them
+/// at the spacing of the ends of each gap.
+void fill_gaps_of_sides(double width, double height, LatticeGraph& graph) {
+  const double size[2] = {width, height};
+  for (int side = 0; side < 4; ++side) {
+    const int along = side & 1, across = 1 - along;
+    const double at = side < 2 ? 0 : size[across];
+    std::vector<int> on_side;
+    for (int i = 0; i < static_cast<int>(graph.points.size()); ++i) {
+      if (graph.points[i][across] == at) on_side.push_back(i);
+    }
+    std::ranges::sort(on_side, {}, [&](int i) { return graph.points[i][along]; });
+    for (std::size_t k = 0; k + 1 < on_side.size(); ++k) {
+      const int a = on_side[k], b = on_side[k + 1];
+      const double gap = graph.points[b][along] - graph.points[a][along];
+      const double spacing = 0.5 * (graph.spacing[a] + graph.spacing[b]);
+      if (gap <= kWidestGap * spacing) continue;
+      const int parts = static_cast<int>(std::lround(gap / spacing));
+      for (int j = 1; j < parts; ++j) {
+        const double share = static_cast<double>(j) / parts;
+        graph.points.push_back((1 - share) * graph.points[a] + share * graph.points[b]);
+        graph.spacing.push_back(spacing);
+      }
+    }
+  }
+}
+
 struct Contact {
   std::array<int, 2> points;
   bool is_edge;
@@ -249,10 +302,12 @@ LatticeGraph lattice_graph(const FeatureTensor& features, const CrossField& fiel
                            const ScaleField& scale, const PositionField& positions) {
   const Shifts shifts = neighbour_shifts(field, scale, positions);
   int count = 0;
-  const FieldGrid<int> labels = label_regions(shifts, count);
+  FieldGrid<int> labels = label_regions(shifts, count);
+  divide_wide_regions(labels, count, scale, positions);
   const std::vector<Region> regions = measure_regions(labels, count, features, scale, positions);
   LatticeGraph graph;
   const std::vector<int> point_of = place_points(regions, field.z.width, field.z.height, graph);
+  fill_gaps_of_sides(field.z.width, field.z.height, graph);
   graph.edges = lattice_edges(labels, shifts, point_of);
   return graph;
 }

@@ -127,15 +127,22 @@ ScaleField compute(const FeatureTensor& features, const CrossField& field, doubl
   return scale;
 }
 
-/// Whole numbers of cells across and down whose product is nearest to that of the given ones.
-std::array<double, 2> whole_cells(double across, double down) {
+/// Whole numbers of cells across and down whose product is near to that of the given ones.
+std::array<double, 2> whole_cells(double across, double down, double stretch_cost) {
+  constexpr int kReach = 3;  // how far from the given numbers
   std::array<double, 2> best{1, 1};
-  double best_miss = std::numeric_limits<double>::max();
-  for (const double x : {std::floor(across), std::ceil(across)}) {
-    for (const double y : {std::floor(down), std::ceil(down)}) {
-      const double miss = std::abs(x * y - across * down);
-      if (x >= 1 && y >= 1 && miss < best_miss) best_miss = miss, best = {x, y};
-    }
+  double least = std::numeric_limits<double>::max();
+  const auto consider = [&](double x, double y) {
+    if (!(x >= 1 && y >= 1)) return;
+    const double stretch_x = std::log(x / across), stretch_y = std::log(y / down);
+    const double cost =
+        std::abs(stretch_x + stretch_y) + stretch_cost * std::abs(stretch_x - stretch_y);
+    if (cost < least) least = cost, best = {x, y};
+  };
+  for (int k = -kReach; k <= kReach; ++k) {
+    const double x = std::floor(across) + k, y = std::floor(down) + k;
+    consider(x, std::round(across * down / x));
+    consider(std::round(across * down / y), y);
   }
   return best;
 }
@@ -149,7 +156,8 @@ ScaleField relative_scale(const FeatureTensor& features, const CrossField& field
   return with_opencv_errors([&] { return compute(features, field, edge, options, context); });
 }
 
-ScaleField scaled_to_count(const ScaleField& relative, const CrossField& field, double count) {
+ScaleField scaled_to_count(const ScaleField& relative, const CrossField& field, double count,
+                           SideDivision division) {
   const int w = field.z.width, h = field.z.height;
   double cells = 0, across = 0, down = 0;
   FieldGrid<float> horizontal(w, h);  // cos^2 of the x-axis' angle
@@ -164,7 +172,11 @@ ScaleField scaled_to_count(const ScaleField& relative, const CrossField& field, 
   const double factor = std::sqrt(cells / count);
   across /= factor * h;
   down /= factor * w;
-  const auto [columns, rows] = whole_cells(across, down);
+  // What a stretched cell costs beside a wrong number of cells, both as logarithms.
+  const double stretch_cost = division == SideDivision::square ? 0.2 : 0.02;
+  const auto [columns, rows] = division == SideDivision::none
+                                   ? std::array<double, 2>{across, down}
+                                   : whole_cells(across, down, stretch_cost);
   const auto fit_x = static_cast<float>(factor * across / columns);
   const auto fit_y = static_cast<float>(factor * down / rows);
   ScaleField scale = relative;

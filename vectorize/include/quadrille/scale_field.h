@@ -40,8 +40,16 @@ struct ScaleOptions {
 ScaleField relative_scale(const FeatureTensor& features, const CrossField& field, double edge,
                           const ScaleOptions& options = {}, const RunContext& context = {});
 
-/// Relative lengths to lengths such that sum 1 / (length_x length_y) is `count` > 0. Where the
-/// cross is aligned with the borders, the lengths divide the sides of the picture.
-ScaleField scaled_to_count(const ScaleField& relative, const CrossField& field, double count);
+/// How the lengths are fitted to the sides of the picture where the cross is aligned with them.
+enum class SideDivision {
+  square,   ///< they divide the sides; cells are stretched as little as that takes
+  counted,  ///< they divide the sides; cells are stretched to keep their number
+  none,     ///< the lattice gets dislocations near the sides instead
+};
+
+/// Relative lengths to lengths such that sum 1 / (length_x length_y) is `count` > 0, or near it
+/// where they divide the sides.
+ScaleField scaled_to_count(const ScaleField& relative, const CrossField& field, double count,
+                           SideDivision division = SideDivision::square);
 
 }  // namespace quadrille

@@ -17,7 +17,7 @@ namespace quadrille {
 inline constexpr int kMaxQuads = 2'000'000;
 
 struct VectorizeOptions {
-  /// Wished number of quads, 1 to kMaxQuads; met within 10 % from 20 quads up.
+  /// Wished number of quads, 1 to kMaxQuads; met within 5 % from 200 quads up.
   int quads = 3000;
   CrossFieldOptions cross_field;
   ScaleOptions scale;
@@ -36,8 +36,8 @@ struct Quadrangulation {
   ScaleField scale;
   PositionField position;
   QuadMesh mesh;  ///< source pixels
-  /// The axis-aligned lattice took the place of the fields' mesh: the picture is smaller than 4
-  /// quads a side, its quads are smaller than a pixel, or the count could not be met within 10 %.
+  /// The axis-aligned lattice took the place of the fields' mesh, because the picture is smaller than
+  /// 4 quads a side.
   bool fallback = false;
 };
 
