@@ -69,6 +69,9 @@ FieldGrid<Constraint> finest_constraints(const FeatureTensor& features, float fe
                            feature_weight * features.weight(x, y), false};
     }
   }
+  for (const OutlinePixel& p : features.outline) {
+    constraints(p.x, p.y) = {p.point, p.normal, 1, false};
+  }
   return constraints;
 }
 

@@ -9,7 +9,9 @@
 #include <map>
 
 #include "convex_faces.h"
+#include "divide_faces.h"
 #include "lattice_graph.h"
+#include "outline_bending.h"
 #include "shape_smoothing.h"
 #include "triangulation.h"
 
@@ -92,7 +94,14 @@ QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
   for (const GridPoint& p : triangulation.points()) {
     points.emplace_back(static_cast<double>(p.x) / units, static_cast<double>(p.y) / units);
   }
-  QuadMesh mesh = split_faces(std::move(points), convex_faces(triangulation));
+  return divide_faces(std::move(points), convex_faces(triangulation), width, height);
+}
+
+QuadMesh divide_faces(std::vector<Eigen::Vector2d> points,
+                      const std::vector<std::vector<int>>& faces, double width, double height,
+                      const OutlineSamples* outline) {
+  QuadMesh mesh = split_faces(std::move(points), faces);
+  if (outline) bend_outline(mesh, *outline);
   smooth_bad_quads(mesh, width, height);
   return mesh;
 }

@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
+#include "opaque_picture.h"
 #include "quadrille/error.h"
+#include "quadrille/mesh_region.h"
 #include "quadrille/vectorize.h"
+#include "region_features.h"
 #include "stage_clock.h"
 
 namespace quadrille {
@@ -18,6 +22,10 @@ constexpr double kGradingLoss = 1.13;
 constexpr double kRoundingSlack = 1 + 1e-9;
 // Lattice edges shorter than this, in source pixels, carry no information about the picture.
 constexpr double kShortestEdge = 1.0;
+// Loops of an outline with fewer square pixels are specks and pinholes.
+constexpr double kLeastLoopArea = 4;
+// A loop takes some 8 quads at least, and half of the quads are to stay for the inside.
+constexpr int kLeastQuadsPerLoop = 16;
 
 void check(const VectorizeOptions& options) {
   if (options.quads < 1) {
@@ -65,12 +73,23 @@ bool has_features(const FeatureTensor& features) {
                      [](unsigned char e) { return e != 0; });
 }
 
+/// Area of the part of the picture that is meshed.
+double area_of(const Quadrangulation& result, const Raster& picture) {
+  if (result.outline.empty()) return static_cast<double>(picture.width) * picture.height;
+  double area = 0;
+  for (const Loop& loop : result.outline) area += signed_area(loop);
+  return area;
+}
+
 /// Scales, positions and quads for the solved cross field, repeated with corrected scales until the
 /// count is close to the wished one; keeps the closest.
-void mesh_to_count(Quadrangulation& result, double width, double height,
-                   const VectorizeOptions& options, StageClock& clock, const RunContext& context) {
+void mesh_to_count(Quadrangulation& result, const Raster& picture, const VectorizeOptions& options,
+                   StageClock& clock, const RunContext& context) {
+  const double width = picture.width, height = picture.height;
+  const double share = area_of(result, picture) / (width * height);
   CountCalibration calibration(
-      options.quads, options.quads / 4.0 * (has_features(result.features) ? kGradingLoss : 1));
+      options.quads,
+      options.quads / 4.0 / share * (has_features(result.features) ? kGradingLoss : 1));
   for (int round = 0; round < kCalibrationRounds; ++round) {
     ScaleField scale =
         scale_field(result.features, result.cross, calibration.cells(), options.scale, context);
@@ -79,9 +98,12 @@ void mesh_to_count(Quadrangulation& result, double width, double height,
         position_field(result.features, result.cross, scale, options.position, context);
     clock.finish("position field");
     QuadMesh mesh =
-        extract_quads(result.features, result.cross, scale, position, width, height, context);
+        result.outline.empty()
+            ? extract_quads(result.features, result.cross, scale, position, width, height, context)
+            : extract_quads(result.features, result.cross, scale, position, result.outline, width,
+                            height, context);
     const int quads = mesh.quad_count();
-    clock.finish("quads", {{"asked", std::round(4 * calibration.cells())},
+    clock.finish("quads", {{"asked", std::round(4 * share * calibration.cells())},
                            {"quads", static_cast<double>(quads)}});
     if (round == 0 || relative_miss(quads, options.quads) <
                           relative_miss(result.mesh.quad_count(), options.quads)) {
@@ -94,34 +116,96 @@ void mesh_to_count(Quadrangulation& result, double width, double height,
   }
 }
 
+/// The outline to follow with so many quads: empty for the whole picture.
+std::vector<Loop> wanted_outline(const Raster& picture, const VectorizeOptions& options) {
+  if (options.region == MeshRegion::whole || !picture.has_alpha()) return {};
+  std::vector<Loop> outline = alpha_outline(picture, kLeastLoopArea);
+  if (outline.empty()) {
+    throw Error(ErrorCode::degenerate_input,
+                "the picture has no opaque pixel, so there is nothing to mesh; mesh the whole "
+                "picture instead");
+  }
+  const std::size_t most = std::max(1, options.quads / kLeastQuadsPerLoop);
+  if (outline.size() > most) {
+    std::vector<double> areas;
+    for (const Loop& loop : outline) areas.push_back(std::abs(signed_area(loop)));
+    std::nth_element(areas.begin(), areas.begin() + most, areas.end(), std::greater<>());
+    // A loop inside of another one is smaller, so what goes leaves nothing behind in it.
+    outline = alpha_outline(picture, std::nextafter(areas[most], INFINITY));
+  }
+  if (is_frame(outline, picture.width, picture.height)) return {};
+  return outline;
+}
+
+bool is_valid(const Quadrangulation& result, const Raster& picture) {
+  if (result.mesh.quad_count() == 0) return false;
+  const auto violations = result.outline.empty()
+                              ? validate(result.mesh, picture.width, picture.height)
+                              : validate_region(result.mesh, picture.width, picture.height);
+  return violations.empty();
+}
+
+/// The lattice trimmed by the outline, with about the wished count.
+QuadMesh trimmed_lattice(const std::vector<Loop>& outline, const Raster& picture, double area,
+                         int wished) {
+  CountCalibration calibration(wished, wished);
+  QuadMesh best;
+  for (int round = 0; round < kCalibrationRounds; ++round) {
+    QuadMesh mesh =
+        lattice_mesh(outline, picture.width, picture.height, std::sqrt(area / calibration.cells()));
+    const int quads = mesh.quad_count();
+    if (round == 0 || relative_miss(quads, wished) < relative_miss(best.quad_count(), wished)) {
+      best = std::move(mesh);
+    }
+    if (relative_miss(quads, wished) <= kCloseEnough) break;
+    calibration.observe(quads);
+  }
+  return best;
+}
+
+/// The fields' mesh of the whole picture, or of the inside of the outline.
+void mesh_by_fields(Quadrangulation& result, const Raster& picture, double edge,
+                    const VectorizeOptions& options, const RunContext& context) {
+  StageClock clock(context);
+  const bool whole = result.outline.empty();
+  result.working = make_working_picture(whole ? picture : result.inside, edge);
+  result.features = feature_tensor(result.working.picture, {}, context);
+  if (!whole) confine_features(result.features, result.outline, result.working);
+  clock.finish("features");
+  result.cross = cross_field(result.features, options.cross_field, context);
+  clock.finish("cross field",
+               {{"singularities", static_cast<double>(singularities(result.cross).size())}});
+  mesh_to_count(result, picture, options, clock, context);
+}
+
 }  // namespace
 
 Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& options,
                               const RunContext& context) {
   check(options);
   check_raster(picture);
-  const double width = picture.width, height = picture.height;
-  // Faces are extracted at twice the wished edge length; dividing each of them halves it.
-  const double edge = 2 * std::sqrt(width * height / options.quads);
   Quadrangulation result;
+  result.outline = wanted_outline(picture, options);
+  const bool whole = result.outline.empty();
+  if (!whole) result.inside = opaque_picture(picture);
+  const double width = picture.width, height = picture.height;
+  const double area = area_of(result, picture);
+  // Faces are extracted at twice the wished edge length; dividing each of them halves it.
+  const double edge = 2 * std::sqrt(area / options.quads);
   const bool meaningful =
       edge >= 2 * kShortestEdge && 2 * edge <= std::min(width, height) * kRoundingSlack;
-  if (meaningful && !options.lattice) {
-    StageClock clock(context);
-    result.working = make_working_picture(picture, edge);
-    result.features = feature_tensor(result.working.picture, {}, context);
-    clock.finish("features");
-    result.cross = cross_field(result.features, options.cross_field, context);
-    clock.finish("cross field",
-                 {{"singularities", static_cast<double>(singularities(result.cross).size())}});
-    mesh_to_count(result, width, height, options, clock, context);
-  }
-  const bool valid = result.mesh.quad_count() > 0 &&
-                     relative_miss(result.mesh.quad_count(), options.quads) <= kAcceptableMiss &&
-                     validate(result.mesh, width, height).empty();
-  if (!valid) {
-    result.mesh = lattice_mesh(width, height, options.quads);
-    result.fallback = !options.lattice;
+  if (meaningful && !options.lattice) mesh_by_fields(result, picture, edge, options, context);
+
+  // How few quads an outline can be followed with is not known, so any number will do there.
+  const bool close_enough =
+      !whole || relative_miss(result.mesh.quad_count(), options.quads) <= kAcceptableMiss;
+  if (close_enough && is_valid(result, picture)) return result;
+  result.fallback = !options.lattice;
+  result.mesh = whole ? lattice_mesh(width, height, options.quads)
+                      : trimmed_lattice(result.outline, picture, area, options.quads);
+  if (!is_valid(result, picture)) {
+    throw Error(ErrorCode::numerical_failure,
+                "no valid mesh was found for the picture's outline; mesh the whole picture");
   }
   return result;
 }

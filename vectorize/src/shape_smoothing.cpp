@@ -28,18 +28,29 @@ Eigen::Vector2d mean_of_diagonals(const QuadMesh& mesh, int v) {
   return sum / static_cast<double>(fan.size());
 }
 
-/// Keeps a border vertex on its side; corners of the picture do not move.
-Eigen::Vector2d allowed_step(const Eigen::Vector2d& p, Eigen::Vector2d step, double width,
+/// Keeps a border vertex on its side of the picture; elsewhere on the border, and at corners,
+/// nothing moves.
+Eigen::Vector2d allowed_step(const QuadMesh& mesh, int v, const Eigen::Vector2d& step, double width,
                              double height) {
-  if (p.x() == 0 || p.x() == width) step.x() = 0;
-  if (p.y() == 0 || p.y() == height) step.y() = 0;
-  return step;
+  if (!mesh.is_border_vertex(v)) return step;
+  const auto fan = mesh.fan(v);
+  const Eigen::Vector2d &p = mesh.vertices[v], &next = mesh.vertices[mesh.tip(fan.front())],
+                        &before = mesh.vertices[mesh.origin(QuadMesh::prev(fan.back()))];
+  const double size[2] = {width, height};
+  for (int axis = 0; axis < 2; ++axis) {
+    const bool on_side = p[axis] == 0 || p[axis] == size[axis];
+    if (!on_side || next[axis] != p[axis] || before[axis] != p[axis]) continue;
+    Eigen::Vector2d along = step;
+    along[axis] = 0;
+    return along;
+  }
+  return Eigen::Vector2d::Zero();
 }
 
 bool improve(QuadMesh& mesh, int v, double before, double width, double height) {
   const Eigen::Vector2d p = mesh.vertices[v];
   for (const Eigen::Vector2d& target : {mean_of_neighbours(mesh, v), mean_of_diagonals(mesh, v)}) {
-    const Eigen::Vector2d step = allowed_step(p, target - p, width, height);
+    const Eigen::Vector2d step = allowed_step(mesh, v, target - p, width, height);
     if (step.isZero()) continue;
     for (const double share : {1.0, 0.5, 0.2}) {
       mesh.vertices[v] = p + share * step;
