@@ -175,8 +175,8 @@ std::vector<Loop> alpha_outline(const Raster& picture, double least_area) {
   return loops;
 }
 
-bool is_frame(const std::vector<Loop>& outline, double width, double height) {
-  return outline.size() == 1 && signed_area(outline[0]) == width * height;
+bool is_frame(const std::vector<Loop>& outline, double width, double height, double least_area) {
+  return outline.size() == 1 && width * height - signed_area(outline[0]) <= least_area;
 }
 
 }  // namespace quadrille

@@ -49,9 +49,8 @@ void bend_outline(QuadMesh& mesh, const OutlineSamples& outline) {
     return {a.x(), a.y(), b.x(), b.y()};
   };
   std::map<Ends, Vector2d> target;
-  for (std::size_t e = 0; e < outline.edges.size(); ++e) {
-    const auto [a, b] = outline.edges[e];
-    target[ends(outline.points[a], outline.points[b])] = outline.midpoints[e];
+  for (int p = 0; p < static_cast<int>(outline.points.size()); ++p) {
+    target[ends(outline.points[p], outline.points[outline.next(p)])] = outline.midpoints[p];
   }
   std::map<int, Vector2d> moved_from;
   for (int v = 0; v < mesh.vertex_count(); ++v) {

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kReach = 0.5;      // of lattice points to the outline, in spacings
+constexpr double kReach = 0.35;     // of lattice points to the outline, in spacings
 constexpr double kClosest = 0.5;    // least distance between samples along the outline, in spacings
 constexpr double kLeastArc = 0.25;  // pixels
 // An edge is divided where the outline leaves its chord by more than this share of its length,
@@ -238,6 +238,12 @@ void repair(std::vector<LoopSampler>& samplers, const std::vector<Contour>& cont
 
 }  // namespace
 
+int OutlineSamples::steps_between(int p, int q) const {
+  if (loop_of_point[p] != loop_of_point[q]) return -1;
+  const int steps = std::abs(p - q);
+  return std::min(steps, loop_size(loop_of_point[p]) - steps);
+}
+
 OutlineSamples sample_outline(const std::vector<Loop>& outline, const LatticeGraph& graph,
                               const Spacing& spacing, double width, double height) {
   std::vector<Contour> contours;
@@ -264,19 +270,17 @@ OutlineSamples sample_outline(const std::vector<Loop>& outline, const LatticeGra
   repair(samplers, contours);
 
   OutlineSamples samples;
-  std::vector<int> first;
-  for (const LoopSampler& s : samplers) {
-    const int begin = static_cast<int>(samples.points.size());
-    first.push_back(begin);
-    const Loop points = s.points(), midpoints = s.midpoints();
-    const int n = static_cast<int>(points.size());
+  samples.loop_begin.push_back(0);
+  for (std::size_t l = 0; l < samplers.size(); ++l) {
+    const Loop points = samplers[l].points(), midpoints = samplers[l].midpoints();
     samples.points.insert(samples.points.end(), points.begin(), points.end());
     samples.midpoints.insert(samples.midpoints.end(), midpoints.begin(), midpoints.end());
-    for (int i = 0; i < n; ++i) samples.edges.push_back({begin + i, begin + (i + 1) % n});
+    samples.loop_of_point.resize(samples.points.size(), static_cast<int>(l));
+    samples.loop_begin.push_back(static_cast<int>(samples.points.size()));
   }
   for (const Key& key : keys) {
     samples.sample_of_lattice_point.push_back(
-        key.loop < 0 ? -1 : first[key.loop] + samplers[key.loop].index_of(key.s));
+        key.loop < 0 ? -1 : samples.loop_begin[key.loop] + samplers[key.loop].index_of(key.s));
   }
   return samples;
 }

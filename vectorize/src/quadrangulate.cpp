@@ -133,7 +133,7 @@ std::vector<Loop> wanted_outline(const Raster& picture, const VectorizeOptions& 
     // A loop inside of another one is smaller, so what goes leaves nothing behind in it.
     outline = alpha_outline(picture, std::nextafter(areas[most], INFINITY));
   }
-  if (is_frame(outline, picture.width, picture.height)) return {};
+  if (is_frame(outline, picture.width, picture.height, kLeastLoopArea)) return {};
   return outline;
 }
 

@@ -20,7 +20,9 @@ using Eigen::Vector2d;
 
 constexpr double kGridUnitsPerSpacing = 512;
 constexpr double kClearance = 0.3;  // of lattice points from the outline's edges, in spacings
-constexpr int kOutlineUnits = 64;   // outline coordinates are multiples of 1/64 pixel
+// Edges of the lattice between points of the outline at most so many steps apart cut off ears.
+constexpr int kEarSteps = 3;
+constexpr int kOutlineUnits = 64;  // outline coordinates are multiples of 1/64 pixel
 // Keeps the grid's coordinates in the range of the triangulation's exact predicates.
 constexpr double kMostUnits = 1 << 29;
 
@@ -36,10 +38,9 @@ double units_per_pixel(const LatticeGraph& graph, double width, double height) {
 /// The lattice points inside that are not too near to the edges between the samples.
 std::vector<char> clear_points(const LatticeGraph& graph, const OutlineSamples& outline) {
   std::vector<Loop> loops;
-  for (std::size_t e = 0; e < outline.edges.size(); ++e) {
-    const bool continues = e > 0 && outline.edges[e - 1][1] == outline.edges[e][0];
-    if (!continues) loops.emplace_back();
-    loops.back().push_back(outline.points[outline.edges[e][0]]);
+  for (std::size_t l = 0; l + 1 < outline.loop_begin.size(); ++l) {
+    loops.emplace_back(outline.points.begin() + outline.loop_begin[l],
+                       outline.points.begin() + outline.loop_begin[l + 1]);
   }
   const std::vector<Contour> contours(loops.begin(), loops.end());
   const double mean_spacing =
@@ -52,6 +53,13 @@ std::vector<char> clear_points(const LatticeGraph& graph, const OutlineSamples& 
     clear.push_back(inside(p) && !index.nearest(p, kClearance * graph.spacing[i]));
   }
   return clear;
+}
+
+/// True when the edge between two of the outline's points would cut off a face without an inner
+/// vertex, which is flat where the outline is smooth.
+bool cuts_off_ear(const OutlineSamples& outline, int p, int q) {
+  const int steps = outline.steps_between(p, q);
+  return steps >= 0 && steps <= kEarSteps;
 }
 
 /// The triangulation of the outline and the lattice points that are clear of it.
@@ -70,8 +78,8 @@ Triangulation triangulate(const LatticeGraph& graph, const OutlineSamples& outli
   for (const Vector2d& p : outline.points) {
     vertex_of_sample.push_back(triangulation.insert(to_grid(p)));
   }
-  for (const auto& [a, b] : outline.edges) {
-    const int u = vertex_of_sample[a], v = vertex_of_sample[b];
+  for (int p = 0; p < static_cast<int>(outline.points.size()); ++p) {
+    const int u = vertex_of_sample[p], v = vertex_of_sample[outline.next(p)];
     triangulation.insert_edge(u, v);
     border.insert({u, v});
   }
@@ -85,7 +93,10 @@ Triangulation triangulate(const LatticeGraph& graph, const OutlineSamples& outli
   }
   for (const auto& [a, b] : graph.edges) {
     const int u = vertex_of_point[a], v = vertex_of_point[b];
-    if (u >= 0 && v >= 0) triangulation.insert_edge(u, v);
+    if (u < 0 || v < 0) continue;
+    const int p = outline.sample_of_lattice_point[a], q = outline.sample_of_lattice_point[b];
+    if (p >= 0 && q >= 0 && cuts_off_ear(outline, p, q)) continue;
+    triangulation.insert_edge(u, v);
   }
   return triangulation;
 }

@@ -63,7 +63,12 @@ void confine_features(FeatureTensor& features, const std::vector<Loop>& outline,
           {x, y, p.cast<float>(), Vector2d(-along.y(), along.x()).normalized().cast<float>()}};
     }
   }
-  for (const auto& [index, nearest] : found) features.outline.push_back(nearest.pixel);
+  for (const auto& [index, nearest] : found) {
+    features.outline.push_back(nearest.pixel);
+    features.direction.data[index] = nearest.pixel.cross();
+    features.weight.data[index] = 1;
+    features.edges.data[index] = 1;
+  }
 }
 
 }  // namespace quadrille

@@ -8,7 +8,8 @@
 
 namespace quadrille {
 
-/// Takes the features outside of an outline (source pixels) away and enters the outline's pixels.
+/// Takes the features outside of an outline (source pixels) away and makes the outline one: the
+/// strongest feature line, and FeatureTensor::outline.
 void confine_features(FeatureTensor& features, const std::vector<Loop>& outline,
                       const WorkingPicture& working);
 

@@ -21,7 +21,8 @@ inline constexpr float kOpaqueAlpha = 0.5f;
 /// Throws Error{invalid_argument} for a malformed picture.
 std::vector<Loop> alpha_outline(const Raster& picture, double least_area = 0);
 
-/// True for the single loop along the sides of the rectangle [0, width] x [0, height].
-bool is_frame(const std::vector<Loop>& outline, double width, double height);
+/// True for a single loop along the sides of the rectangle [0, width] x [0, height] that leaves out
+/// at most `least_area` square pixels.
+bool is_frame(const std::vector<Loop>& outline, double width, double height, double least_area = 0);
 
 }  // namespace quadrille
