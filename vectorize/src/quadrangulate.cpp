@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "inside_test.h"
 #include "opaque_picture.h"
 #include "quadrille/error.h"
 #include "quadrille/mesh_region.h"
@@ -81,15 +82,38 @@ double area_of(const Quadrangulation& result, const Raster& picture) {
   return area;
 }
 
+/// The share of the lattice's cells that lies inside the outline.
+double share_of_cells(const Quadrangulation& result, const ScaleField& scale) {
+  const InsideTest inside(result.outline);
+  double all = 0, in_region = 0;
+  for (int y = 0; y < scale.along_x.height; ++y) {
+    for (int x = 0; x < scale.along_x.width; ++x) {
+      const double cells = 1 / (static_cast<double>(scale.along_x(x, y)) * scale.along_y(x, y));
+      all += cells;
+      if (inside({(x + 0.5) * result.working.scale_x, (y + 0.5) * result.working.scale_y})) {
+        in_region += cells;
+      }
+    }
+  }
+  // Of a tiny region no pixel may be inside.
+  return std::max(in_region, 1.0) / all;
+}
+
 /// Scales, positions and quads for the solved cross field, repeated with corrected scales until the
 /// count is close to the wished one; keeps the closest.
 void mesh_to_count(Quadrangulation& result, const Raster& picture, const VectorizeOptions& options,
                    StageClock& clock, const RunContext& context) {
   const double width = picture.width, height = picture.height;
-  const double share = area_of(result, picture) / (width * height);
-  CountCalibration calibration(
-      options.quads,
-      options.quads / 4.0 / share * (has_features(result.features) ? kGradingLoss : 1));
+  // Along an outline vertices are added about as often as points merge where the scale is graded.
+  const bool is_whole = result.outline.empty();
+  double share = area_of(result, picture) / (width * height);
+  const double wanted_cells =
+      options.quads / 4.0 * (is_whole && has_features(result.features) ? kGradingLoss : 1);
+  if (!is_whole) {
+    share = share_of_cells(result, scale_field(result.features, result.cross, wanted_cells / share,
+                                               options.scale, context));
+  }
+  CountCalibration calibration(options.quads, wanted_cells / share);
   for (int round = 0; round < kCalibrationRounds; ++round) {
     ScaleField scale =
         scale_field(result.features, result.cross, calibration.cells(), options.scale, context);
@@ -97,11 +121,10 @@ void mesh_to_count(Quadrangulation& result, const Raster& picture, const Vectori
     PositionField position =
         position_field(result.features, result.cross, scale, options.position, context);
     clock.finish("position field");
-    QuadMesh mesh =
-        result.outline.empty()
-            ? extract_quads(result.features, result.cross, scale, position, width, height, context)
-            : extract_quads(result.features, result.cross, scale, position, result.outline, width,
-                            height, context);
+    QuadMesh mesh = is_whole ? extract_quads(result.features, result.cross, scale, position, width,
+                                             height, context)
+                             : extract_quads(result.features, result.cross, scale, position,
+                                             result.outline, width, height, context);
     const int quads = mesh.quad_count();
     clock.finish("quads", {{"asked", std::round(4 * share * calibration.cells())},
                            {"quads", static_cast<double>(quads)}});
