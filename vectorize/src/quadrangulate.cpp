@@ -144,9 +144,9 @@ std::vector<Loop> wanted_outline(const Raster& picture, const VectorizeOptions& 
   if (options.region == MeshRegion::whole || !picture.has_alpha()) return {};
   std::vector<Loop> outline = alpha_outline(picture, kLeastLoopArea);
   if (outline.empty()) {
-    throw Error(ErrorCode::degenerate_input,
-                "the picture has no opaque pixel, so there is nothing to mesh; mesh the whole "
-                "picture instead");
+    throw Error(
+        ErrorCode::degenerate_input,
+        "the picture has no opaque pixel and so no outline; mesh the whole picture instead");
   }
   const std::size_t most = std::max(1, options.quads / kLeastQuadsPerLoop);
   if (outline.size() > most) {
