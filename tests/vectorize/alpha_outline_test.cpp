@@ -46,7 +46,7 @@ TEST(AlphaOutline, CrossesHalfWayBetweenPixelsAndRunsAlongTheFrame) {
   }
 }
 
-TEST(AlphaOutline, DiscToTheHundredthOfAPixel) {
+TEST(AlphaOutline, FollowsADiscWithinASixthOfAPixel) {
   const double r = 20;
   const auto outline = alpha_outline(masked_picture(50, 50, disc(25, 24, r)));
   ASSERT_EQ(outline.size(), 1u);
