@@ -29,6 +29,7 @@ VectorizeOptions MeshOptions::vectorize_options() const {
   options.quads = quads;
   options.fit.method = fit == "bessel" ? FitMethod::bessel : FitMethod::hermite;
   options.lattice = lattice;
+  options.region = mesh == "opaque" ? MeshRegion::opaque : MeshRegion::whole;
   return options;
 }
 
@@ -38,6 +39,13 @@ void declare_quad_options(CLI::App& parser, MeshOptions& options) {
       ->capture_default_str();
   parser.add_flag("--lattice", options.lattice,
                   "a plain axis-aligned lattice instead of the field-aligned mesh");
+  parser
+      .add_option("--mesh", options.mesh,
+                  "what the mesh covers: the whole picture, or its opaque part, with a border that "
+                  "follows the outline (alpha 1/2) and its holes; the same for a picture without "
+                  "transparency, an error for one without an opaque pixel")
+      ->check(CLI::IsMember({"whole", "opaque"}))
+      ->capture_default_str();
 }
 
 void declare_mesh_options(CLI::App& parser, MeshOptions& options) {

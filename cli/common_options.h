@@ -27,10 +27,11 @@ struct MeshOptions {
   int quads = 3000;
   std::string fit = "hermite";
   bool lattice = false;
+  std::string mesh = "whole";
 
   VectorizeOptions vectorize_options() const;
 };
-/// --quads and --lattice.
+/// --quads, --lattice and --mesh.
 void declare_quad_options(CLI::App& parser, MeshOptions& options);
 /// These and --fit.
 void declare_mesh_options(CLI::App& parser, MeshOptions& options);

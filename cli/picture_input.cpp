@@ -27,7 +27,8 @@ VectorImage read_vector_image(const fs::path& path, const MeshOptions& mesh, Obs
 
 Vectorization vectorize_picture(const Raster& picture, const fs::path& source,
                                 const MeshOptions& mesh, Observer& observer) {
-  Vectorization result = vectorize(picture, mesh.vectorize_options(), observer.context());
+  Vectorization result = with_name_of(
+      source, [&] { return vectorize(picture, mesh.vectorize_options(), observer.context()); });
   result.image.metadata["title"] = printable_name(source.stem());
   result.image.metadata["source"] = printable_name(source);
   return result;

@@ -4,6 +4,7 @@
 
 #include "common_options.h"
 #include "observer.h"
+#include "quadrille/error.h"
 #include "quadrille/raster.h"
 #include "quadrille/vector_image.h"
 
@@ -25,5 +26,17 @@ Vectorization vectorize_picture(const Raster& picture, const std::filesystem::pa
 
 /// The file's name without its folder as valid, printable UTF-8.
 std::string printable_name(const std::filesystem::path& path);
+
+/// Calls work(), which complains of the picture, and puts the file's name in front of the
+/// complaint.
+template <class Work>
+auto with_name_of(const std::filesystem::path& source, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::degenerate_input) throw;
+    throw Error(error.code(), "'" + source.string() + "': " + error.what());
+  }
+}
 
 }  // namespace quadrille::cli

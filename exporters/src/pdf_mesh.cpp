@@ -13,6 +13,7 @@
 #include "arena_size.h"
 #include "patch_opacity.h"
 #include "quadrille/error.h"
+#include "quadrille/mesh_region.h"
 #include "subdivision.h"
 
 namespace quadrille {
@@ -117,6 +118,27 @@ void require(cairo_status_t status) {
                                          "; export a smaller picture or another format");
 }
 
+/// Clips to the border of the layer's patches. Viewers do not anti-alias meshes but paint every
+/// pixel that they touch; clips they do anti-alias.
+void clip_to_border(cairo_t* drawing, const Layer& layer) {
+  const PatchMesh& patches = layer.patches;
+  const QuadMesh& mesh = patches.mesh;
+  for (const std::vector<int>& loop : border_loops(mesh)) {
+    const Eigen::Vector2d start = layer.transform * mesh.vertices[loop.front()];
+    cairo_move_to(drawing, start.x(), start.y());
+    for (const int v : loop) {
+      const int h = mesh.fan(v).front();
+      const Eigen::Vector2d &from = mesh.vertices[v], &to = mesh.vertices[mesh.tip(h)];
+      const Eigen::Vector2d a = layer.transform * (from + tangent_along(patches, h, 0) / 3),
+                            b = layer.transform * (to - tangent_along(patches, h, 1) / 3),
+                            end = layer.transform * to;
+      cairo_curve_to(drawing, a.x(), a.y(), b.x(), b.y(), end.x(), end.y());
+    }
+    cairo_close_path(drawing);
+  }
+  cairo_clip(drawing);
+}
+
 class PdfPainter {
  public:
   PdfPainter(cairo_t* drawing, const VectorImage& image, const PdfOptions& options,
@@ -126,6 +148,8 @@ class PdfPainter {
   void paint() {
     const double tolerance = options_.tolerance / 255;
     for (const Layer& layer : image_.layers) {
+      cairo_save(drawing_);
+      if (!fills_page(layer)) clip_to_border(drawing_, layer);
       const std::vector<PatchOpacity> opacities = patch_opacities(layer.patches, 0.5 * tolerance);
       const std::vector<int> opaque = patches_with(opacities, PatchOpacity::opaque);
       const std::vector<int> translucent = patches_with(opacities, PatchOpacity::translucent);
@@ -134,10 +158,16 @@ class PdfPainter {
       paint_patches({layer, opaque, true, {}});
       paint_patches({layer, opaque, true, tolerance});
       paint_patches({layer, translucent, false, tolerance});
+      cairo_restore(drawing_);
     }
   }
 
  private:
+  bool fills_page(const Layer& layer) const {
+    return layer.transform.isApprox(Eigen::Affine2d::Identity(), 1e-12) &&
+           validate(layer.patches.mesh, image_.width, image_.height).empty();
+  }
+
   struct Task {
     const Layer& layer;
     const std::vector<int>& quads;

@@ -28,20 +28,47 @@ void collect_ends(const QuadMesh& mesh, int v, std::vector<int>& ends) {
   }
 }
 
+/// The border edge end that meets border edge end `end` at its vertex.
+int other_border_end(const QuadMesh& mesh, int end) {
+  const auto fan = mesh.fan(vertex_at(mesh, end));
+  const int first = edge_end(mesh, fan.front(), 0);
+  return first == end ? edge_end(mesh, QuadMesh::prev(fan.back()), 1) : first;
+}
+
+bool runs_straight(const QuadMesh& mesh, int a, int b) {
+  const Eigen::Vector2d origin = mesh.vertices[vertex_at(mesh, a)];
+  const Eigen::Vector2d p = mesh.vertices[vertex_at(mesh, a ^ 1)] - origin;
+  const Eigen::Vector2d q = mesh.vertices[vertex_at(mesh, b ^ 1)] - origin;
+  return p.x() * q.y() == p.y() * q.x() && p.dot(q) < 0;
+}
+
+/// True when the border runs from end a to end b as one curve: not around a corner, and not where a
+/// straight piece of two edges or more, such as a side of the picture, would be bent by what
+/// follows it.
+bool is_one_border_curve(const QuadMesh& mesh, int a, int b) {
+  if (runs_straight(mesh, a, b)) return true;
+  return straightness(mesh, a, b) > kCosine45 &&
+         !runs_straight(mesh, a ^ 1, other_border_end(mesh, a ^ 1)) &&
+         !runs_straight(mesh, b ^ 1, other_border_end(mesh, b ^ 1));
+}
+
 /// True when the i-th and the j-th of n ends at a vertex bound the same quad.
 bool are_neighbours(std::size_t i, std::size_t j, std::size_t n, bool closed) {
   return j - i == 1 || (closed && i == 0 && j + 1 == n);
 }
 
 /// Pairs ends, the straightest pair first; earlier ends win ties. The two sides of a quad's corner
-/// are no pair: a common tangent would fold the corner.
+/// are no pair: a common tangent would fold the corner. Nor is a border edge with one inside, which
+/// would bend the border.
 void pair_straightest(const QuadMesh& mesh, const std::vector<int>& ends, bool closed,
                       std::vector<int>& opposite) {
+  const std::size_t first_inside = closed ? 0 : 1;
+  const std::size_t end_inside = closed ? ends.size() : ends.size() - 1;
   while (true) {
     double best = kCosine45;
     std::size_t first = 0, second = 0;
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      for (std::size_t j = i + 1; j < ends.size(); ++j) {
+    for (std::size_t i = first_inside; i < end_inside; ++i) {
+      for (std::size_t j = i + 1; j < end_inside; ++j) {
         if (opposite[ends[i]] >= 0 || opposite[ends[j]] >= 0) continue;
         if (are_neighbours(i, j, ends.size(), closed)) continue;
         const double s = straightness(mesh, ends[i], ends[j]);
@@ -66,7 +93,7 @@ std::vector<int> opposite_ends(const QuadMesh& mesh) {
       for (int i = 0; i < 4; ++i) opposite[ends[i]] = ends[(i + 2) & 3];
       continue;
     }
-    if (!closed && ends.size() >= 3 && straightness(mesh, ends.front(), ends.back()) > kCosine45) {
+    if (!closed && ends.size() >= 3 && is_one_border_curve(mesh, ends.front(), ends.back())) {
       opposite[ends.front()] = ends.back();
       opposite[ends.back()] = ends.front();
     }

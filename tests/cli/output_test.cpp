@@ -195,6 +195,27 @@ TEST_F(Output, TheLatticeHasNoIrregularVertex) {
   EXPECT_EQ(report["options"]["lattice"], true);
 }
 
+TEST_F(Output, ReportsTheOpaqueRegion) {
+  const fs::path folder = fresh_folder("opaque");
+  const auto report_on = [&](const std::string& name) {
+    expect_silent_success(
+        quadrille({sample(name), "-o", (folder / "a.quad").string(), "--quads", "300", "--mesh",
+                   "opaque", "--report", (folder / "r.json").string()}));
+    return nlohmann::json::parse(bytes_of(folder / "r.json"));
+  };
+  const auto ring = report_on("pictures/ring_256_alpha.png");
+  EXPECT_EQ(ring["options"]["mesh"], "opaque");
+  EXPECT_EQ(ring["region"]["mesh"], "opaque");
+  EXPECT_EQ(ring["region"]["components"], 1);
+  EXPECT_EQ(ring["region"]["holes"], 5);
+  EXPECT_GT(ring["region"]["outline_length"], 1000);
+  EXPECT_EQ(ring["doubly_covered_pixels"], 0);
+  const auto coast = report_on("formats/coast_progressive.jpg");
+  EXPECT_EQ(coast["options"]["mesh"], "opaque");
+  EXPECT_EQ(coast["region"]["mesh"], "whole");
+  EXPECT_EQ(coast["region"]["holes"], 0);
+}
+
 TEST_F(Output, VerboseTellsAStageALine) {
   const fs::path folder = fresh_folder("verbose");
   const CommandResult result =

@@ -41,6 +41,17 @@ TEST(Refusal, BadPicturesGetTheirVerdict) {
   }
 }
 
+TEST(Refusal, OpaqueRegionOfATransparentPicture) {
+  const fs::path folder = fresh_folder("transparent");
+  const std::string picture = sample("formats/fully_transparent.png");
+  const std::string output = (folder / "a.png").string();
+  expect_refused(quadrille({picture, "--mesh", "opaque", "-o", output}), "fully_transparent.png");
+  expect_refused(
+      quadrille({"inspect", picture, "--stage", "quads", "--mesh", "opaque", "-o", output}),
+      "fully_transparent.png");
+  EXPECT_THAT(files_in(folder), IsEmpty());
+}
+
 TEST(Refusal, MissingPicture) {
   const fs::path folder = fresh_folder("missing");
   expect_refused(quadrille({"nowhere.png", "-o", (folder / "a.svg").string()}), "nowhere.png");

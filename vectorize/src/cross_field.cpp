@@ -35,6 +35,10 @@ DataTerm data_term(const FeatureTensor& features, double alignment) {
       term.pull(x, y) = border ? Complex(mass) : mass * features.direction(x, y);
     }
   }
+  for (const OutlinePixel& p : features.outline) {
+    term.mass(p.x, p.y) = kBorderMass;
+    term.pull(p.x, p.y) = kBorderMass * p.cross();
+  }
   return term;
 }
 

@@ -60,6 +60,9 @@ PositionLevel finest_level(const FeatureTensor& features, const CrossField& fiel
                            Constraint::line(ridge, normal, feature_weight * features.weight(x, y)));
     }
   }
+  for (const OutlinePixel& p : features.outline) {
+    level.set_constraint(p.x, p.y, Constraint::line(p.point, p.normal, 1));
+  }
   add_border_constraints(level, static_cast<float>(w), static_cast<float>(h));
   return level;
 }

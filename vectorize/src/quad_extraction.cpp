@@ -9,8 +9,10 @@
 #include <map>
 
 #include "convex_faces.h"
+#include "divide_faces.h"
 #include "face_cleanup.h"
 #include "lattice_graph.h"
+#include "outline_bending.h"
 #include "shape_smoothing.h"
 #include "triangulation.h"
 
@@ -52,6 +54,18 @@ Triangulation triangulate(const LatticeGraph& graph, double scale_x, double scal
   return triangulation;
 }
 
+/// Vertices of the border that bending has taken off their lines stay where they are now.
+void fix_bent_border(const QuadMesh& mesh, std::vector<VertexGuide>& guides) {
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (!mesh.is_border_vertex(v)) continue;
+    const auto fan = mesh.fan(v);
+    const Eigen::Vector2d here = mesh.vertices[v];
+    const Eigen::Vector2d after = mesh.vertices[mesh.tip(fan.front())] - here;
+    const Eigen::Vector2d before = mesh.vertices[mesh.origin(QuadMesh::prev(fan.back()))] - here;
+    if (after.x() * before.y() != after.y() * before.x()) guides[v] = VertexGuide::at(here);
+  }
+}
+
 }  // namespace
 
 QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
@@ -66,10 +80,20 @@ QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
   for (const GridPoint& p : triangulation.points()) {
     points.emplace_back(static_cast<double>(p.x) / units, static_cast<double>(p.y) / units);
   }
-  FaceMesh faces(std::move(points), convex_faces(triangulation));
+  return divide_faces(std::move(points), convex_faces(triangulation));
+}
+
+QuadMesh divide_faces(std::vector<Eigen::Vector2d> points,
+                      const std::vector<std::vector<int>>& polygons,
+                      const OutlineSamples* outline) {
+  FaceMesh faces(std::move(points), polygons);
   clean_up(faces);
   std::vector<VertexGuide> guides;
   QuadMesh mesh = faces.split(guides);
+  if (outline) {
+    bend_outline(mesh, *outline);
+    fix_bent_border(mesh, guides);
+  }
   smooth_shape(mesh, guides);
   return mesh;
 }

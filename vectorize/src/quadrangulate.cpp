@@ -3,19 +3,27 @@
 #include <string>
 
 #include "count_calibration.h"
+#include "meshed_region.h"
+#include "opaque_picture.h"
 #include "quadrille/error.h"
+#include "quadrille/mesh_region.h"
 #include "quadrille/vectorize.h"
+#include "region_features.h"
 #include "stage_clock.h"
 
 namespace quadrille {
 namespace {
 
 constexpr int kCalibrationRounds = 24;  // one or two for most pictures
-constexpr double kCloseEnough = 0.05;   // of the wished count
+// An outline may need more quads than wished, whatever the lattice.
+constexpr int kOutlineRounds = 6;
+constexpr double kCloseEnough = 0.05;  // of the wished count
 // Cells asked for over cells made where the scale is graded: points too close to each other merge.
 constexpr double kGradingLoss = 1.1;
 // Lets a picture of exactly 4 quads a side count as one.
 constexpr double kRoundingSlack = 1 + 1e-9;
+// Lattice edges inside an outline for which fields are solved, in source pixels.
+constexpr double kShortestRegionEdge = 2;
 
 void check(const VectorizeOptions& options) {
   if (options.quads < 1) {
@@ -44,25 +52,38 @@ SideDivision side_division(int round) {
   return round % 2 ? SideDivision::counted : SideDivision::none;
 }
 
+QuadMesh extract(const Quadrangulation& fields, const ScaleField& scale,
+                 const PositionField& position, const Raster& picture, const RunContext& context) {
+  if (fields.outline.empty()) {
+    return extract_quads(fields.features, fields.cross, scale, position, picture.width,
+                         picture.height, context);
+  }
+  return extract_quads(fields.features, fields.cross, scale, position, fields.outline,
+                       picture.width, picture.height, context);
+}
+
 /// Scales, positions and quads for the solved cross field, repeated with corrected scales until the
 /// count is close to the wished one; keeps the closest.
-void mesh_to_count(Quadrangulation& result, double width, double height, double edge,
+void mesh_to_count(Quadrangulation& result, const Raster& picture, double edge,
                    const VectorizeOptions& options, StageClock& clock, const RunContext& context) {
   const ScaleField relative = relative_scale(result.features, result.cross,
                                              edge / result.working.scale_x, options.scale, context);
-  CountCalibration calibration(
-      options.quads, options.quads / 4.0 * (has_features(result.features) ? kGradingLoss : 1));
-  for (int round = 0; round < kCalibrationRounds; ++round) {
+  const bool whole = result.outline.empty();
+  const double share = whole ? 1 : share_of_cells(result.outline, result.working, relative);
+  // Along an outline vertices are added about as often as points merge where the scale is graded.
+  const double loss = whole && has_features(result.features) ? kGradingLoss : 1;
+  CountCalibration calibration(options.quads, options.quads / 4.0 * loss / share);
+  const int rounds = whole ? kCalibrationRounds : kOutlineRounds;
+  for (int round = 0; round < rounds; ++round) {
     ScaleField scale =
         scaled_to_count(relative, result.cross, calibration.cells(), side_division(round));
     clock.finish("scale field");
     PositionField position =
         position_field(result.features, result.cross, scale, options.position, context);
     clock.finish("position field");
-    QuadMesh mesh =
-        extract_quads(result.features, result.cross, scale, position, width, height, context);
+    QuadMesh mesh = extract(result, scale, position, picture, context);
     const int quads = mesh.quad_count();
-    clock.finish("quads", {{"asked", std::round(4 * calibration.cells())},
+    clock.finish("quads", {{"asked", std::round(4 * share * calibration.cells())},
                            {"quads", static_cast<double>(quads)}});
     if (round == 0 || relative_miss(quads, options.quads) <
                           relative_miss(result.mesh.quad_count(), options.quads)) {
@@ -75,33 +96,76 @@ void mesh_to_count(Quadrangulation& result, double width, double height, double 
   }
 }
 
+bool is_valid(const Quadrangulation& result, const Raster& picture) {
+  if (result.mesh.quad_count() == 0) return false;
+  const auto violations = result.outline.empty()
+                              ? validate(result.mesh, picture.width, picture.height)
+                              : validate_region(result.mesh, picture.width, picture.height);
+  return violations.empty();
+}
+
+/// The lattice trimmed by the outline, with about the wished count.
+QuadMesh trimmed_lattice(const std::vector<Loop>& outline, const Raster& picture, double area,
+                         int wished) {
+  CountCalibration calibration(wished, wished);
+  QuadMesh best;
+  for (int round = 0; round < kOutlineRounds; ++round) {
+    QuadMesh mesh =
+        lattice_mesh(outline, picture.width, picture.height, std::sqrt(area / calibration.cells()));
+    const int quads = mesh.quad_count();
+    if (round == 0 || relative_miss(quads, wished) < relative_miss(best.quad_count(), wished)) {
+      best = std::move(mesh);
+    }
+    if (relative_miss(quads, wished) <= kCloseEnough) break;
+    calibration.observe(quads);
+  }
+  return best;
+}
+
+/// The fields' mesh of the whole picture, or of the inside of the outline.
+void mesh_by_fields(Quadrangulation& result, const Raster& picture, double edge,
+                    const VectorizeOptions& options, const RunContext& context) {
+  StageClock clock(context);
+  const bool whole = result.outline.empty();
+  const Raster& shown = whole ? picture : result.inside;
+  result.working = make_working_picture(shown, edge);
+  result.features = feature_tensor(result.working.picture, {}, context);
+  if (!whole) confine_features(result.features, result.outline, result.working);
+  clock.finish("features");
+  result.cross = cross_field(result.features, options.cross_field, context);
+  clock.finish("cross field",
+               {{"singularities", static_cast<double>(singularities(result.cross).size())}});
+  mesh_to_count(result, picture, edge, options, clock, context);
+  snap_to_features(result.mesh, shown, options.snap, context);
+  clock.finish("snapping");
+}
+
 }  // namespace
 
 Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& options,
                               const RunContext& context) {
   check(options);
   check_raster(picture);
-  const double width = picture.width, height = picture.height;
-  // Faces are extracted at twice the wished edge length; dividing each of them halves it.
-  const double edge = 2 * std::sqrt(width * height / options.quads);
   Quadrangulation result;
-  const bool has_room = 2 * edge <= std::min(width, height) * kRoundingSlack;
-  if (has_room && !options.lattice) {
-    StageClock clock(context);
-    result.working = make_working_picture(picture, edge);
-    result.features = feature_tensor(result.working.picture, {}, context);
-    clock.finish("features");
-    result.cross = cross_field(result.features, options.cross_field, context);
-    clock.finish("cross field",
-                 {{"singularities", static_cast<double>(singularities(result.cross).size())}});
-    mesh_to_count(result, width, height, edge, options, clock, context);
-    snap_to_features(result.mesh, picture, options.snap, context);
-    clock.finish("snapping");
-  }
-  const bool valid = result.mesh.quad_count() > 0 && validate(result.mesh, width, height).empty();
-  if (!valid) {
-    result.mesh = lattice_mesh(width, height, options.quads);
-    result.fallback = !options.lattice;
+  result.outline = wanted_outline(picture, options);
+  const bool whole = result.outline.empty();
+  if (!whole) result.inside = opaque_picture(picture);
+  const double width = picture.width, height = picture.height;
+  const double area = region_area(result.outline, picture);
+  // Faces are extracted at twice the wished edge length; dividing each of them halves it.
+  const double edge = 2 * std::sqrt(area / options.quads);
+  // The fields cover the rectangle, at a resolution that a small outline would drive up.
+  const bool worthwhile = whole || edge >= kShortestRegionEdge;
+  const bool has_room = worthwhile && 2 * edge <= std::min(width, height) * kRoundingSlack;
+  if (has_room && !options.lattice) mesh_by_fields(result, picture, edge, options, context);
+  if (is_valid(result, picture)) return result;
+
+  result.fallback = !options.lattice;
+  result.mesh = whole ? lattice_mesh(width, height, options.quads)
+                      : trimmed_lattice(result.outline, picture, area, options.quads);
+  if (!is_valid(result, picture)) {
+    throw Error(ErrorCode::numerical_failure,
+                "no valid mesh was found for the picture's outline; mesh the whole picture");
   }
   return result;
 }

@@ -1,6 +1,7 @@
 // Field-aligned Quadrangulation for Image Vectorization (Wei et al. 2019).
 #include "quadrille/vectorize.h"
 
+#include "quadrille/mesh_region.h"
 #include "quadrille/patch_geometry.h"
 #include "stage_clock.h"
 
@@ -16,6 +17,11 @@ VectorizeReport describe(const Raster& picture, const Quadrangulation& quads,
   report.vertices = patches.mesh.vertex_count();
   report.irregular_vertices = count_irregular_vertices(patches.mesh);
   report.fallback = quads.fallback;
+  report.region = quads.outline.empty() ? MeshRegion::whole : MeshRegion::opaque;
+  const MeshRegionSize size = region_size(patches.mesh);
+  report.components = size.components;
+  report.holes = size.holes;
+  report.outline_length = size.outline_length;
   for (const Singularity& s : singularities(quads.cross)) {
     ++(s.quarter_index > 0 ? report.positive_singularities : report.negative_singularities);
   }
@@ -51,7 +57,8 @@ Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
   set_bessel_tangents(patches);
   guard_folds(patches);
   clock.finish("patches");
-  const FitReport fit = fit_colors(patches, picture, options.fit, recorded);
+  const Raster& shown = quads.outline.empty() ? picture : quads.inside;
+  const FitReport fit = fit_colors(patches, shown, options.fit, recorded);
   clock.finish("colours", {{"iterations", fit.iterations}});
 
   Vectorization result;

@@ -9,9 +9,10 @@ namespace quadrille {
 /// of the parabola through the three points, scaled by each edge's chord length, so curves are G1.
 /// "Opposite" pairs the edges of a valence-4 interior vertex across each other, the two border
 /// edges of a border vertex of valence 3 or more when they deviate from a straight line by less
-/// than 45 degrees, and of the others the pairs that deviate least, below 45 degrees, but never two
-/// sides of one quad; unpaired ends take the parabola's end derivative toward the other end of the
-/// edge. Straight borders stay straight.
+/// than 45 degrees and neither continues an exactly straight piece of the border, and of the edges
+/// inside the pairs that deviate least, below 45 degrees, but never two sides of one quad; unpaired
+/// ends take the parabola's end derivative toward the other end of the edge. Straight pieces of the
+/// border stay straight.
 void set_bessel_tangents(PatchMesh& patches);
 
 /// True when the Bezier coefficients of the Jacobian det(P_u, P_v) are all positive, after at most

@@ -9,6 +9,19 @@
 
 namespace quadrille {
 
+/// A working pixel that the border of the meshed region runs through.
+struct OutlinePixel {
+  int x = 0, y = 0;
+  Eigen::Vector2f point = Eigen::Vector2f::Zero();   ///< of the border, working pixels
+  Eigen::Vector2f normal = Eigen::Vector2f::Zero();  ///< across the border, unit length
+
+  /// The cross aligned with the border, e^{4 i theta}.
+  std::complex<float> cross() const {
+    const std::complex<float> n(normal.x(), normal.y());
+    return n * n * n * n;
+  }
+};
+
 /// Where the picture has features and which way they run, per working pixel.
 struct FeatureTensor {
   /// Unit-modulus target e^{4 i theta} of the cross field, theta along the feature; 0 where the
@@ -21,6 +34,10 @@ struct FeatureTensor {
   FieldGrid<Eigen::Vector2f> gradient;
   /// 1 on the thinned feature lines (Canny), else 0.
   FieldGrid<unsigned char> edges;
+  /// Where the border of the meshed region lies inside the picture, at most once per pixel and
+  /// without its corners: the cross field is aligned with it and the lattice lies on it, as along
+  /// the picture's sides. Empty when the whole picture is meshed.
+  std::vector<OutlinePixel> outline;
 };
 
 struct FeatureOptions {

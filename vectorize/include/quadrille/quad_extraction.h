@@ -1,5 +1,6 @@
 #pragma once
 
+#include "quadrille/planar_loops.h"
 #include "quadrille/position_field.h"
 #include "quadrille/quad_mesh.h"
 
@@ -15,11 +16,25 @@ QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
                        const ScaleField& scale, const PositionField& positions, double width,
                        double height, const RunContext& context = {});
 
+/// Pure quad mesh of the area inside an outline such as alpha_outline() gives: the loops,
+/// simplified to edges of about the lattice's length with their corners kept, are constraints of
+/// the triangulation, triangles outside of them are left out, and the border vertices lie on the
+/// outline. Loops stay apart from each other and from themselves whatever the edge length; see
+/// validate_region(). The outline must not be empty.
+QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
+                       const ScaleField& scale, const PositionField& positions,
+                       const std::vector<Loop>& outline, double width, double height,
+                       const RunContext& context = {});
+
 /// Axis-aligned lattice of columns x rows equal quads over [0, width] x [0, height]: the fallback
 /// for any picture and the baseline of the benchmarks.
 QuadMesh lattice_mesh(double width, double height, int columns, int rows);
 
 /// The lattice with about `quads` cells that are as square as possible.
 QuadMesh lattice_mesh(double width, double height, int quads);
+
+/// The same lattice, cells of about `edge` pixels a side, trimmed by an outline and divided like
+/// the fields' mesh: each whole cell becomes four quads.
+QuadMesh lattice_mesh(const std::vector<Loop>& outline, double width, double height, double edge);
 
 }  // namespace quadrille

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "quadrille/alpha_outline.h"
 #include "quadrille/cross_field.h"
 #include "quadrille/feature_snapping.h"
 #include "quadrille/fit.h"
@@ -16,9 +17,19 @@ namespace quadrille {
 /// More quads than this are refused.
 inline constexpr int kMaxQuads = 2'000'000;
 
+/// Which part of the picture the mesh covers.
+enum class MeshRegion {
+  whole,   ///< the rectangle
+  opaque,  ///< inside alpha_outline(): components, holes and a curved border
+};
+
 struct VectorizeOptions {
-  /// Wished number of quads, 1 to kMaxQuads; met within 5 % from 200 quads up.
+  /// Wished number of quads, 1 to kMaxQuads; met within 5 % from 200 quads up. Of an opaque region
+  /// it is met where the outline can be followed with so few.
   int quads = 3000;
+  /// A picture without transparent pixels gives the same for both. Loops of the outline below 4
+  /// square pixels, and the smallest ones where there are more than quads / 16, are ignored.
+  MeshRegion region = MeshRegion::whole;
   CrossFieldOptions cross_field;
   ScaleOptions scale;
   PositionOptions position;
@@ -36,9 +47,14 @@ struct Quadrangulation {
   ScaleField scale;
   PositionField position;
   QuadMesh mesh;  ///< source pixels
-  /// The axis-aligned lattice took the place of the fields' mesh, because the picture is smaller than
-  /// 4 quads a side.
+  /// The axis-aligned lattice took the place of the fields' mesh, because the picture is smaller
+  /// than 4 quads a side.
   bool fallback = false;
+  /// The border that an opaque region's mesh follows, source pixels; empty for a mesh of the whole.
+  std::vector<Loop> outline;
+  /// What such a mesh shows: the picture with the colours and the alpha of the inside continued
+  /// across the outline. Empty for a mesh of the whole.
+  Raster inside;
 };
 
 struct VectorizeReport {
@@ -48,6 +64,9 @@ struct VectorizeReport {
   double misalignment_degrees = 0;
   int folded = 0;  ///< patches whose geometry is not certified fold-free
   bool fallback = false;
+  MeshRegion region = MeshRegion::whole;  ///< of the mesh that was made
+  int components = 0, holes = 0;          ///< of the mesh
+  double outline_length = 0;              ///< pixels, around components and holes
   FitReport fit;
   std::vector<StageReport> stages;
 };
@@ -59,7 +78,8 @@ struct Vectorization {
 
 /// Paper section 3: picture to field-aligned pure quad mesh, validated.
 /// Throws Error{invalid_argument} for options out of range or a malformed picture,
-/// Error{limit_exceeded} above kMaxQuads, Error{cancelled}.
+/// Error{limit_exceeded} above kMaxQuads, Error{degenerate_input} for the opaque region of a
+/// picture without an opaque pixel, Error{cancelled}.
 Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& options = {},
                               const RunContext& context = {});
 
