@@ -29,6 +29,9 @@ VectorizeOptions MeshOptions::vectorize_options() const {
   options.quads = quads;
   options.fit.method = fit == "bessel" ? FitMethod::bessel : FitMethod::hermite;
   options.lattice = lattice;
+  options.cross_field.alignment = alignment;
+  options.cross_field.method =
+      field == "paper" ? CrossFieldMethod::paper : CrossFieldMethod::smooth;
   return options;
 }
 
@@ -38,6 +41,18 @@ void declare_quad_options(CLI::App& parser, MeshOptions& options) {
       ->capture_default_str();
   parser.add_flag("--lattice", options.lattice,
                   "a plain axis-aligned lattice instead of the field-aligned mesh");
+  parser
+      .add_option("--alignment", options.alignment,
+                  "how closely the cross field follows features, at the price of singularities: "
+                  "about 0.01 to 0.5")
+      ->check(positive_number())
+      ->capture_default_str();
+  parser
+      .add_option("--field", options.field,
+                  "how the cross field is found: smooth, or paper (its Eq. 1-3 and Alg. 1 as "
+                  "printed, for comparison only)")
+      ->check(CLI::IsMember({"smooth", "paper"}))
+      ->capture_default_str();
 }
 
 void declare_mesh_options(CLI::App& parser, MeshOptions& options) {

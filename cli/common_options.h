@@ -27,10 +27,12 @@ struct MeshOptions {
   int quads = 3000;
   std::string fit = "hermite";
   bool lattice = false;
+  double alignment = CrossFieldOptions{}.alignment;
+  std::string field = "smooth";
 
   VectorizeOptions vectorize_options() const;
 };
-/// --quads and --lattice.
+/// --quads, --lattice, --alignment and --field.
 void declare_quad_options(CLI::App& parser, MeshOptions& options);
 /// These and --fit.
 void declare_mesh_options(CLI::App& parser, MeshOptions& options);

@@ -94,6 +94,17 @@ void mesh_to_count(Quadrangulation& result, double width, double height,
   }
 }
 
+std::vector<std::pair<std::string, double>> phase_figures(const CrossField& cross) {
+  std::vector<std::pair<std::string, double>> figures;
+  for (const CrossFieldPhase& phase : cross.phases) {
+    figures.emplace_back(phase.name + " singularities",
+                         static_cast<double>(phase.singularities.size()));
+    figures.emplace_back(phase.name + " energy", phase.energy);
+    figures.emplace_back(phase.name + " misalignment", phase.misalignment_degrees);
+  }
+  return figures;
+}
+
 }  // namespace
 
 Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& options,
@@ -112,8 +123,7 @@ Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& opt
     result.features = feature_tensor(result.working.picture, {}, context);
     clock.finish("features");
     result.cross = cross_field(result.features, options.cross_field, context);
-    clock.finish("cross field",
-                 {{"singularities", static_cast<double>(singularities(result.cross).size())}});
+    clock.finish("cross field", phase_figures(result.cross));
     mesh_to_count(result, width, height, options, clock, context);
   }
   const bool valid = result.mesh.quad_count() > 0 &&
