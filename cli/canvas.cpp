@@ -78,6 +78,13 @@ void Canvas::mark(const Eigen::Vector2d& centre, const Ink& ink) {
   dot(centre, 3.5, ink);
 }
 
+void Canvas::ring(const Eigen::Vector2d& centre, const Ink& ink) {
+  dot(centre, 5, {255, 255, 255});
+  cv::circle(surface_->pixels, surface_->place(centre),
+             static_cast<int>(3.5 * (1 << kFractionBits)), to_scalar(ink), 1, cv::LINE_AA,
+             kFractionBits);
+}
+
 void Canvas::tint(const std::function<Tint(double x, double y)>& tint_at) {
   cv::Mat& pixels = surface_->pixels;
   for (int y = 0; y < pixels.rows; ++y) {

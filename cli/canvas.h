@@ -32,6 +32,8 @@ class Canvas {
   void dot(const Eigen::Vector2d& centre, double radius, const Ink& ink);
   /// A dot with a white rim that stands out on any ground.
   void mark(const Eigen::Vector2d& centre, const Ink& ink);
+  /// A ring of a mark's size, for what is no longer there.
+  void ring(const Eigen::Vector2d& centre, const Ink& ink);
 
   struct Tint {
     Ink ink;

@@ -30,6 +30,9 @@ VectorizeOptions MeshOptions::vectorize_options() const {
   options.fit.method = fit == "bessel" ? FitMethod::bessel : FitMethod::hermite;
   options.lattice = lattice;
   options.region = mesh == "opaque" ? MeshRegion::opaque : MeshRegion::whole;
+  options.cross_field.alignment = alignment;
+  options.cross_field.method =
+      field == "paper" ? CrossFieldMethod::paper : CrossFieldMethod::smooth;
   return options;
 }
 
@@ -45,6 +48,18 @@ void declare_quad_options(CLI::App& parser, MeshOptions& options) {
                   "follows the outline (alpha 1/2) and its holes; the same for a picture without "
                   "transparency, an error for one without an opaque pixel")
       ->check(CLI::IsMember({"whole", "opaque"}))
+      ->capture_default_str();
+  parser
+      .add_option("--alignment", options.alignment,
+                  "how closely the cross field follows features, at the price of singularities: "
+                  "about 0.01 to 0.5")
+      ->check(positive_number())
+      ->capture_default_str();
+  parser
+      .add_option("--field", options.field,
+                  "how the cross field is found: smooth, or paper (its Eq. 1-3 and Alg. 1 as "
+                  "printed, for comparison only)")
+      ->check(CLI::IsMember({"smooth", "paper"}))
       ->capture_default_str();
 }
 

@@ -28,10 +28,12 @@ struct MeshOptions {
   std::string fit = "hermite";
   bool lattice = false;
   std::string mesh = "whole";
+  double alignment = CrossFieldOptions{}.alignment;
+  std::string field = "smooth";
 
   VectorizeOptions vectorize_options() const;
 };
-/// --quads, --lattice and --mesh.
+/// --quads, --lattice, --mesh, --alignment and --field.
 void declare_quad_options(CLI::App& parser, MeshOptions& options);
 /// These and --fit.
 void declare_mesh_options(CLI::App& parser, MeshOptions& options);

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,20 @@ Json stages_of(const Observer& observer) {
     stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"figures", figures}});
   }
   return stages;
+}
+
+Json phases_of(const std::vector<CrossFieldPhase>& phases) {
+  Json entries = Json::array();
+  for (const CrossFieldPhase& phase : phases) {
+    const auto positive = std::ranges::count_if(
+        phase.singularities, [](const Singularity& s) { return s.quarter_index > 0; });
+    entries.push_back({{"name", phase.name},
+                       {"positive", positive},
+                       {"negative", std::ssize(phase.singularities) - positive},
+                       {"energy", phase.energy},
+                       {"misalignment_degrees", phase.misalignment_degrees}});
+  }
+  return entries;
 }
 
 Json sizes_of(const std::vector<fs::path>& outputs) {
@@ -64,6 +79,8 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
         {"fit", report.options.fit},
         {"lattice", report.options.lattice},
         {"mesh", report.options.mesh},
+        {"alignment", report.options.alignment},
+        {"field", report.options.field},
         {"threads", observer.context().threads}}},
       {"quads", v.quads},
       {"vertices", v.vertices},
@@ -76,6 +93,7 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
       {"singularities",
        {{"positive", v.positive_singularities}, {"negative", v.negative_singularities}}},
       {"misalignment_degrees", v.misalignment_degrees},
+      {"cross_field", phases_of(v.cross_field_phases)},
       {"folded", v.folded},
       {"fallback", v.fallback},
       {"uncovered_pixels", report.measurement.coverage.uncovered},

@@ -37,6 +37,23 @@ void draw_singularities(Canvas& canvas, const Quadrangulation& stages) {
   }
 }
 
+/// Those that the field had before cancelling and has no more, nor close by: moved ones stay out.
+void draw_removed_singularities(Canvas& canvas, const Quadrangulation& stages) {
+  constexpr double kMoved = 8;  // working pixels
+  const auto& phases = stages.cross.phases;
+  const auto before = std::ranges::find(phases, "renormalised", &CrossFieldPhase::name);
+  if (before == phases.end()) return;
+  const std::vector<Singularity> left = singularities(stages.cross);
+  for (const Singularity& s : before->singularities) {
+    const bool stayed = std::ranges::any_of(left, [&](const Singularity& other) {
+      return other.quarter_index == s.quarter_index &&
+             std::hypot(other.x - s.x, other.y - s.y) <= kMoved;
+    });
+    if (stayed) continue;
+    canvas.ring(to_source(stages.working, s.x, s.y), s.quarter_index > 0 ? kRed : kBlue);
+  }
+}
+
 void draw_cross_field(Canvas& canvas, const Quadrangulation& stages) {
   constexpr double kSpacing = 20, kArm = 8;  // canvas pixels
   const CrossField& cross = stages.cross;
@@ -53,6 +70,7 @@ void draw_cross_field(Canvas& canvas, const Quadrangulation& stages) {
       }
     }
   }
+  draw_removed_singularities(canvas, stages);
   draw_singularities(canvas, stages);
 }
 
@@ -127,7 +145,9 @@ void draw_patches(Canvas& canvas, const Quadrangulation& stages) {
 const std::vector<StagePicture>& stage_pictures() {
   static const std::vector<StagePicture> pictures = {
       {"feature", "feature weight in red, feature lines dark", true, draw_features},
-      {"cross-field", "crosses; singularities red (+1/4) and blue (-1/4)", true, draw_cross_field},
+      {"cross-field",
+       "crosses; singularities red (+1/4) and blue (-1/4), rings where one was cancelled", true,
+       draw_cross_field},
       {"scale", "edge length from violet (short) to yellow (long)", true, draw_scale},
       {"position", "the lattice point of every working pixel", true, draw_positions},
       {"quads", "the mesh; vertices of valence 3 or less red, 5 or more blue", false, draw_quads},

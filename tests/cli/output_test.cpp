@@ -182,6 +182,14 @@ TEST_F(Output, TheReportTellsEverything) {
   }
   EXPECT_TRUE(report["singularities"]["positive"].is_number());
   EXPECT_TRUE(report["singularities"]["negative"].is_number());
+  ASSERT_EQ(report["cross_field"].size(), 3);
+  EXPECT_EQ(report["cross_field"][0]["name"], "smooth");
+  EXPECT_EQ(report["cross_field"][2]["name"], "cancelled");
+  for (const char* figure : {"positive", "negative"}) {
+    EXPECT_EQ(report["cross_field"][2][figure], report["singularities"][figure]);
+  }
+  EXPECT_EQ(report["cross_field"][2]["misalignment_degrees"], report["misalignment_degrees"]);
+  EXPECT_EQ(report["options"]["field"], "smooth");
   ASSERT_FALSE(report["stages"].empty());
   for (const auto& stage : report["stages"]) EXPECT_GE(stage["seconds"].get<double>(), 0);
 }

@@ -1,9 +1,10 @@
 #include "quadrille/cross_field.h"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "grid_solver.h"
+#include "cancel_singularities.h"
+#include "paper_field.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
@@ -11,97 +12,124 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// On the picture's border the cross must be axis-aligned whatever the picture shows.
-constexpr float kBorderMass = 10;
-// Keeps the system regular where nothing pulls at all; far below any data weight.
-constexpr float kTinyMass = 1e-7f;
-constexpr double kTolerance = 1e-3;
-constexpr int kMaxIterations = 40;
+// Full multigrid and one more cycle, then a cycle a round: solving to the last digit changes
+// neither the number of singularities nor the misalignment.
+constexpr int kFirstCycles = 1, kRoundCycles = 1;
+// Heavier data leaves nothing to smooth, and single precision no room.
+constexpr int kMaxWeight = 1000;
 
-struct DataTerm {
-  FieldGrid<float> mass;
-  ComplexGrid pull;  // mass times target
-};
+void check(const CrossFieldOptions& options) {
+  const auto weight = [](double w) { return w > 0 && w <= kMaxWeight; };
+  if (!weight(options.alignment) || !weight(options.renormalizing_weight)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the cross field's weights must be positive and at most " +
+                    std::to_string(kMaxWeight) + "; use an alignment such as 0.2");
+  }
+  if (options.renormalizing_rounds < 0 || options.cancelling_radius < 0 ||
+      options.cancelling_radius > kMaxCancellingRadius || !(options.cancelling_allowance >= 0)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the cross field's renormalising rounds, cancelling radius (at most " +
+                    std::to_string(kMaxCancellingRadius) +
+                    ") and cancelling allowance must not be negative");
+  }
+}
 
-DataTerm data_term(const FeatureTensor& features, double alignment) {
-  const int w = features.weight.width, h = features.weight.height;
-  DataTerm term{FieldGrid<float>(w, h), ComplexGrid(w, h)};
-  for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) {
-      const bool border = x == 0 || y == 0 || x + 1 == w || y + 1 == h;
-      const float mass =
-          border ? kBorderMass : static_cast<float>(alignment) * features.weight(x, y) + kTinyMass;
-      term.mass(x, y) = mass;
-      term.pull(x, y) = border ? Complex(mass) : mass * features.direction(x, y);
+/// The steps of cross_field(), with what they share.
+class Phases {
+ public:
+  Phases(const FeatureTensor& features, const CrossFieldOptions& options, const RunContext& context)
+      : features_(features),
+        options_(options),
+        context_(context),
+        data_(data_term(features, options.alignment)),
+        angles_(angle_field(features, options.alignment, context)),
+        solver_(data_.mass, context) {}
+
+  void solve() {
+    field_.z = solver_.estimate(data_.pull);
+    solver_.improve(data_.pull, field_.z, kFirstCycles);
+    finish("smooth");
+  }
+
+  void renormalise() {
+    pull_toward_unit_length();
+    for (int round = 0; round < options_.renormalizing_rounds; ++round) {
+      context_.progress("cross field", (round + 1.0) / (options_.renormalizing_rounds + 3));
+      smooth_from_unit_length(field_.z);
     }
+    for (Complex& z : field_.z.data) z = unit(z);
+    finish("renormalised");
   }
-  for (const OutlinePixel& p : features.outline) {
-    term.mass(p.x, p.y) = kBorderMass;
-    term.pull(p.x, p.y) = kBorderMass * p.cross();
-  }
-  return term;
-}
 
-Complex unit(Complex z) {
-  const float length = std::abs(z);
-  return length > 1e-20f ? z / length : Complex(1);
-}
+  void cancel() {
+    const FieldGrid<unsigned char> changed = cancel_singularities(
+        angles_, {options_.cancelling_radius, options_.cancelling_allowance}, context_);
+    for (std::size_t i = 0; i < changed.data.size(); ++i) {
+      if (changed.data[i]) field_.z.data[i] = from_turns(angles_.turns.data[i]);
+    }
+    finish("cancelled");
+  }
+
+  void follow_paper() {
+    field_.z = paper_field(features_, context_);
+    finish("paper");
+  }
+
+  /// One more smoothing, for the confidence.
+  CrossField take() {
+    ComplexGrid smoothed = field_.z;
+    pull_toward_unit_length();
+    smooth_from_unit_length(smoothed);
+    field_.confidence = FieldGrid<float>(smoothed.width, smoothed.height);
+    for (std::size_t i = 0; i < smoothed.data.size(); ++i) {
+      field_.confidence.data[i] = std::min(1.0f, std::sqrt(std::norm(smoothed.data[i])));
+    }
+    return std::move(field_);
+  }
+
+ private:
+  const FeatureTensor& features_;
+  const CrossFieldOptions& options_;
+  const RunContext& context_;
+  DataTerm data_;
+  AngleField angles_;
+  GridSolver<Complex> solver_;
+  CrossField field_;
+
+  void pull_toward_unit_length() {
+    FieldGrid<float> mass = data_.mass;
+    for (float& m : mass.data) m += static_cast<float>(options_.renormalizing_weight);
+    solver_.set_mass(mass);
+  }
+
+  void smooth_from_unit_length(ComplexGrid& z) {
+    const float mu = static_cast<float>(options_.renormalizing_weight);
+    ComplexGrid b = data_.pull;
+    for (std::size_t i = 0; i < b.data.size(); ++i) b.data[i] += mu * unit(z.data[i]);
+    solver_.improve(b, z, kRoundCycles);
+  }
+
+  void finish(const char* name) {
+    set_turns(field_.z, angles_, context_);
+    field_.phases.push_back({name, singularities(field_), energy(angles_, context_),
+                             misalignment_degrees(field_, features_)});
+  }
+};
 
 }  // namespace
 
 CrossField cross_field(const FeatureTensor& features, const CrossFieldOptions& options,
                        const RunContext& context) {
-  if (!(options.alignment > 0) || !(options.renormalizing_weight > 0)) {
-    throw Error(ErrorCode::invalid_argument,
-                "the cross field's weights must be positive; use an alignment such as 0.05");
+  check(options);
+  Phases phases(features, options, context);
+  if (options.method == CrossFieldMethod::paper) {
+    phases.follow_paper();
+  } else {
+    phases.solve();
+    phases.renormalise();
+    if (options.cancelling_radius > 0) phases.cancel();
   }
-  const DataTerm term = data_term(features, options.alignment);
-  CrossField field{term.pull, term.mass};
-  for (Complex& z : field.z.data) z = unit(z);
-  GridSolver(term.mass, context).solve(term.pull, field.z, kTolerance, kMaxIterations);
-
-  const float mu = static_cast<float>(options.renormalizing_weight);
-  FieldGrid<float> mass = term.mass;
-  for (float& m : mass.data) m += mu;
-  const GridSolver pulled(mass, context);
-  for (int round = 0; round < options.renormalizing_rounds; ++round) {
-    context.progress("cross field", (round + 1.0) / (options.renormalizing_rounds + 1));
-    ComplexGrid b = term.pull;
-    for (std::size_t i = 0; i < b.data.size(); ++i) b.data[i] += mu * unit(field.z.data[i]);
-    pulled.solve(b, field.z, kTolerance, kMaxIterations);
-  }
-  for (std::size_t i = 0; i < field.z.data.size(); ++i) {
-    field.confidence.data[i] = std::min(1.0f, std::abs(field.z.data[i]));
-    field.z.data[i] = unit(field.z.data[i]);
-  }
-  return field;
-}
-
-std::vector<Singularity> singularities(const CrossField& field) {
-  std::vector<Singularity> found;
-  const auto turn = [](Complex from, Complex to) { return std::arg(to * std::conj(from)); };
-  for (int y = 0; y + 1 < field.z.height; ++y) {
-    for (int x = 0; x + 1 < field.z.width; ++x) {
-      const Complex a = field.z(x, y), b = field.z(x + 1, y), c = field.z(x + 1, y + 1),
-                    d = field.z(x, y + 1);
-      const double turns =
-          (turn(a, b) + turn(b, c) + turn(c, d) + turn(d, a)) / (2 * std::numbers::pi);
-      const int index = static_cast<int>(std::lround(turns));
-      if (index != 0) found.push_back({x + 1.0, y + 1.0, index});
-    }
-  }
-  return found;
-}
-
-double misalignment_degrees(const CrossField& field, const FeatureTensor& features) {
-  double sum = 0, weight = 0;
-  for (std::size_t i = 0; i < field.z.data.size(); ++i) {
-    if (!features.edges.data[i]) continue;
-    const double w = features.weight.data[i];
-    sum += w * std::abs(std::arg(field.z.data[i] * std::conj(features.direction.data[i]))) / 4;
-    weight += w;
-  }
-  return weight > 0 ? sum / weight * 180 / std::numbers::pi : 0;
+  return phases.take();
 }
 
 }  // namespace quadrille

@@ -16,6 +16,8 @@ constexpr float kNoiseFloor = 3.0f / 255;
 // Canny's thresholds follow the picture's own gradients between these bounds.
 constexpr float kMinCannyHigh = 4.0f / 255, kMaxCannyHigh = 24.0f / 255;
 constexpr float kCannyLowRatio = 0.4f;
+// The robust scale is this percentile on feature lines: features above it have full weight.
+constexpr double kStrongShare = 0.8;
 // Fixed-point unit of the gradients given to Canny.
 constexpr float kCannyUnit = 16384;
 
@@ -79,10 +81,12 @@ FieldGrid<unsigned char> canny_edges(const FieldGrid<Eigen::Vector2f>& gradient)
   return edges;
 }
 
-/// Smoothed four-fold tensor to unit direction and weight.
+/// Smoothed four-fold tensor to unit direction and weight. The weight is the tensor's length over a
+/// robust scale, times the coherence: the share that is left of the lengths that went into the
+/// Gaussian. It is low where directions contradict each other, in texture and at sharp corners.
 void set_direction(const ColourTensor& tensor, double sigma, FeatureTensor& features) {
   const int w = tensor.energy.width, h = tensor.energy.height;
-  FieldGrid<float> re(w, h), im(w, h);
+  FieldGrid<float> re(w, h), im(w, h), total(w, h);
   for (std::size_t i = 0; i < re.data.size(); ++i) {
     const std::complex<float> t = tensor.twofold.data[i];
     const float length = std::abs(t);
@@ -90,22 +94,25 @@ void set_direction(const ColourTensor& tensor, double sigma, FeatureTensor& feat
     const std::complex<float> fourfold = t * t / length;
     re.data[i] = fourfold.real();
     im.data[i] = fourfold.imag();
+    total.data[i] = length;
   }
-  cv::Mat re_mat = wrap(re), im_mat = wrap(im);
-  cv::GaussianBlur(re_mat, re_mat, {}, sigma, sigma, cv::BORDER_REPLICATE);
-  cv::GaussianBlur(im_mat, im_mat, {}, sigma, sigma, cv::BORDER_REPLICATE);
+  for (FieldGrid<float>* part : {&re, &im, &total}) {
+    cv::Mat mat = wrap(*part);
+    cv::GaussianBlur(mat, mat, {}, sigma, sigma, cv::BORDER_REPLICATE);
+  }
 
   std::vector<float> on_edges;
   for (std::size_t i = 0; i < re.data.size(); ++i) {
     if (features.edges.data[i]) on_edges.push_back(std::hypot(re.data[i], im.data[i]));
   }
   const float robust_scale =
-      std::max(percentile(std::move(on_edges), 0.5), kNoiseFloor * kNoiseFloor);
+      std::max(percentile(std::move(on_edges), kStrongShare), kNoiseFloor * kNoiseFloor);
   for (std::size_t i = 0; i < re.data.size(); ++i) {
     const float length = std::hypot(re.data[i], im.data[i]);
     if (length <= 1e-12f) continue;
+    const float coherence = std::min(1.0f, length / total.data[i]);
     features.direction.data[i] = {re.data[i] / length, im.data[i] / length};
-    features.weight.data[i] = std::min(1.0f, length / robust_scale);
+    features.weight.data[i] = coherence * std::min(1.0f, length / robust_scale);
   }
 }
 

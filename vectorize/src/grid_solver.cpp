@@ -1,6 +1,8 @@
+// Trottenberg, Oosterlee, Schuller, Multigrid, 2001.
 #include "grid_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "parallel.h"
@@ -8,170 +10,305 @@
 namespace quadrille {
 namespace {
 
-using Complex = std::complex<float>;
-
 constexpr int kCoarsestSide = 4;
 constexpr int kCoarsestSweeps = 20;
 
-/// Real inner product in a fixed order: rows are summed one by one, then the rows' sums.
-double dot(const ComplexGrid& a, const ComplexGrid& b, const RunContext& context) {
+/// Real inner product in a fixed order: eight lanes a row, then the lanes, then the rows.
+template <class T>
+double dot(const FieldGrid<T>& a, const FieldGrid<T>& b, const RunContext& context) {
+  const int n = a.width * static_cast<int>(sizeof(T) / sizeof(float));
   std::vector<double> rows(a.height);
   parallel_rows(context, a.height, a.width, [&](int y) {
-    double sum = 0;
-    for (int x = 0; x < a.width; ++x) {
-      const Complex p = a(x, y), q = b(x, y);
-      sum += p.real() * q.real() + p.imag() * q.imag();
+    const auto* p = reinterpret_cast<const float*>(&a(0, y));
+    const auto* q = reinterpret_cast<const float*>(&b(0, y));
+    std::array<double, 8> lanes{};
+    int k = 0;
+    for (; k + 8 <= n; k += 8) {
+      for (int lane = 0; lane < 8; ++lane) {
+        lanes[lane] += static_cast<double>(p[k + lane]) * q[k + lane];
+      }
     }
-    rows[y] = sum;
+    for (; k < n; ++k) lanes[0] += static_cast<double>(p[k]) * q[k];
+    for (double lane : lanes) rows[y] += lane;
   });
   double total = 0;
   for (double r : rows) total += r;
   return total;
 }
 
-void add_scaled(ComplexGrid& a, double factor, const ComplexGrid& b) {
+/// a + factor * b, in the place of a or b.
+template <class T>
+void combine(const FieldGrid<T>& a, double factor, const FieldGrid<T>& b, FieldGrid<T>& result) {
   const float f = static_cast<float>(factor);
-  for (std::size_t i = 0; i < a.data.size(); ++i) a.data[i] += f * b.data[i];
-}
-
-/// Bilinear interpolation between cell centres: fine cell x lies in coarse cell x / 2, a quarter of
-/// a coarse cell off its centre, toward the other coarse neighbour.
-int outer_neighbour(int fine, int coarse_count) {
-  return std::clamp((fine >> 1) + ((fine & 1) ? 1 : -1), 0, coarse_count - 1);
-}
-
-void prolong_add(const ComplexGrid& coarse, ComplexGrid& fine, const RunContext& context) {
-  parallel_rows(context, fine.height, fine.width, [&](int y) {
-    const int cy = y >> 1, oy = outer_neighbour(y, coarse.height);
-    for (int x = 0; x < fine.width; ++x) {
-      const int cx = x >> 1, ox = outer_neighbour(x, coarse.width);
-      fine(x, y) += 0.5625f * coarse(cx, cy) + 0.1875f * (coarse(ox, cy) + coarse(cx, oy)) +
-                    0.0625f * coarse(ox, oy);
-    }
-  });
-}
-
-/// The transpose of prolong_add.
-ComplexGrid restrict_sum(const ComplexGrid& fine, int coarse_width, int coarse_height) {
-  ComplexGrid coarse(coarse_width, coarse_height);
-  for (int y = 0; y < fine.height; ++y) {
-    const int cy = y >> 1, oy = outer_neighbour(y, coarse_height);
-    for (int x = 0; x < fine.width; ++x) {
-      const int cx = x >> 1, ox = outer_neighbour(x, coarse_width);
-      const Complex f = fine(x, y);
-      coarse(cx, cy) += 0.5625f * f;
-      coarse(ox, cy) += 0.1875f * f;
-      coarse(cx, oy) += 0.1875f * f;
-      coarse(ox, oy) += 0.0625f * f;
-    }
-  }
-  return coarse;
-}
-
-Complex neighbour_sum(const ComplexGrid& x, int i, int j, int& count) {
-  Complex sum = 0;
-  count = 0;
-  if (i > 0) sum += x(i - 1, j), ++count;
-  if (i + 1 < x.width) sum += x(i + 1, j), ++count;
-  if (j > 0) sum += x(i, j - 1), ++count;
-  if (j + 1 < x.height) sum += x(i, j + 1), ++count;
-  return sum;
+  const auto* p = reinterpret_cast<const float*>(a.data.data());
+  const auto* q = reinterpret_cast<const float*>(b.data.data());
+  auto* r = reinterpret_cast<float*>(result.data.data());
+  const std::size_t n = a.data.size() * sizeof(T) / sizeof(float);
+  for (std::size_t k = 0; k < n; ++k) r[k] = p[k] + f * q[k];
 }
 
 }  // namespace
 
-GridSolver::GridSolver(FieldGrid<float> mass, const RunContext& context) : context_(context) {
-  levels_.push_back({std::move(mass)});
-  while (std::max(levels_.back().mass.width, levels_.back().mass.height) > kCoarsestSide) {
-    const FieldGrid<float>& fine = levels_.back().mass;
+template <class T>
+GridSolver<T>::Plane::Plane(int width, int height)
+    : height(height),
+      stride(static_cast<std::size_t>(width + 2) * kComponents),
+      data(stride * (height + 2)) {}
+
+template <class T>
+GridSolver<T>::GridSolver(const FieldGrid<float>& mass, const RunContext& context)
+    : context_(context) {
+  int w = mass.width, h = mass.height;
+  while (true) {
+    Level level{w, h, {w, h}, {w, h}, {w, h}, {w, h}, {w, h}, {}};
+    for (int parity = 0; parity < 2; ++parity) {
+      level.colour[parity].resize(static_cast<std::size_t>(w) * kComponents);
+      for (std::size_t k = 0; k < level.colour[parity].size(); ++k) {
+        level.colour[parity][k] = (k / kComponents + parity) % 2 == 0;
+      }
+    }
+    levels_.push_back(std::move(level));
+    if (std::max(w, h) <= kCoarsestSide) break;
+    w = (w + 1) / 2;
+    h = (h + 1) / 2;
+  }
+  set_mass(mass);
+}
+
+template <class T>
+void GridSolver<T>::set_mass(const FieldGrid<float>& mass) {
+  set_level_mass(mass, levels_.front());
+  FieldGrid<float> coarse;
+  for (std::size_t i = 1; i < levels_.size(); ++i) {
     // The sum of squared differences does not depend on the spacing in two dimensions, so a coarse
     // edge keeps weight 1 while masses add up.
-    FieldGrid<float> coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
+    const FieldGrid<float> fine = i == 1 ? mass : std::move(coarse);
+    coarse = FieldGrid<float>(levels_[i].width, levels_[i].height);
     for (int y = 0; y < fine.height; ++y) {
       for (int x = 0; x < fine.width; ++x) coarse(x / 2, y / 2) += fine(x, y);
     }
-    levels_.push_back({std::move(coarse)});
+    set_level_mass(coarse, levels_[i]);
   }
 }
 
-void GridSolver::relax(const Level& level, const ComplexGrid& b, ComplexGrid& x, int colour) const {
-  parallel_rows(context_, x.height, x.width, [&](int j) {
-    for (int i = (j + colour) & 1; i < x.width; i += 2) {
-      int count;
-      const Complex sum = neighbour_sum(x, i, j, count);
-      const float diagonal = count + level.mass(i, j);
-      if (diagonal > 0) x(i, j) = (b(i, j) + sum) / diagonal;
+template <class T>
+void GridSolver<T>::set_level_mass(const FieldGrid<float>& mass, Level& level) {
+  const int w = mass.width, h = mass.height;
+  for (int y = 0; y < h; ++y) {
+    float *diagonal = level.diagonal.row(y), *inverse = level.inverse.row(y);
+    const int vertical = (y > 0) + (y + 1 < h);
+    for (int x = 0; x < w; ++x) {
+      const float d = static_cast<float>(vertical + (x > 0) + (x + 1 < w)) + mass(x, y);
+      for (int c = 0; c < kComponents; ++c) {
+        diagonal[x * kComponents + c] = d;
+        inverse[x * kComponents + c] = d > 0 ? 1 / d : 0;
+      }
+    }
+  }
+}
+
+template <class T>
+void GridSolver<T>::load(const FieldGrid<T>& grid, Plane& plane) const {
+  for (int y = 0; y < grid.height; ++y) {
+    const auto* from = reinterpret_cast<const float*>(&grid(0, y));
+    std::copy_n(from, static_cast<std::size_t>(grid.width) * kComponents, plane.row(y));
+  }
+}
+
+template <class T>
+void GridSolver<T>::store(const Plane& plane, FieldGrid<T>& grid) const {
+  for (int y = 0; y < grid.height; ++y) {
+    auto* to = reinterpret_cast<float*>(&grid(0, y));
+    std::copy_n(plane.row(y), static_cast<std::size_t>(grid.width) * kComponents, to);
+  }
+}
+
+/// Gauss-Seidel on one colour of the checkerboard. All pixels are computed and the other colour
+/// kept by a factor of 0, which vectorises; out of place, so that rows may run on any thread.
+template <class T>
+void GridSolver<T>::relax(Level& level, int colour) const {
+  const int n = level.width * kComponents;
+  parallel_rows(context_, level.height, level.width, [&](int y) {
+    const float *up = level.x.row(y - 1), *x = level.x.row(y), *down = level.x.row(y + 1);
+    const float *b = level.b.row(y), *inverse = level.inverse.row(y);
+    const float* chosen = level.colour[(y + colour) & 1].data();
+    float* __restrict next = level.next.row(y);
+    for (int k = 0; k < n; ++k) {
+      const float sum = (up[k] + down[k]) + (x[k - kComponents] + x[k + kComponents]);
+      next[k] = x[k] + chosen[k] * ((b[k] + sum) * inverse[k] - x[k]);
+    }
+  });
+  std::swap(level.x, level.next);
+}
+
+template <class T>
+void GridSolver<T>::find_residual(Level& level) const {
+  const int n = level.width * kComponents;
+  parallel_rows(context_, level.height, level.width, [&](int y) {
+    const float *up = level.x.row(y - 1), *x = level.x.row(y), *down = level.x.row(y + 1);
+    const float *b = level.b.row(y), *diagonal = level.diagonal.row(y);
+    float* __restrict residual = level.next.row(y);
+    for (int k = 0; k < n; ++k) {
+      const float sum = (up[k] + down[k]) + (x[k - kComponents] + x[k + kComponents]);
+      residual[k] = b[k] + sum - diagonal[k] * x[k];
     }
   });
 }
 
-ComplexGrid GridSolver::apply(const Level& level, const ComplexGrid& x) const {
-  ComplexGrid result(x.width, x.height);
-  parallel_rows(context_, x.height, x.width, [&](int j) {
-    for (int i = 0; i < x.width; ++i) {
-      int count;
-      const Complex sum = neighbour_sum(x, i, j, count);
-      result(i, j) = (count + level.mass(i, j)) * x(i, j) - sum;
+/// Bilinear interpolation between cell centres: a fine cell lies a quarter of a coarse cell off the
+/// centre of its own, toward the other coarse neighbour, or toward nothing at the border.
+template <class T>
+void GridSolver<T>::prolong_add(std::size_t index) {
+  Level& fine = levels_[index];
+  Level& coarse = levels_[index + 1];
+  constexpr int C = kComponents;
+  parallel_rows(context_, fine.height, fine.width, [&](int y) {
+    const int cy = y >> 1;
+    const int other = std::clamp(cy + ((y & 1) ? 1 : -1), 0, coarse.height - 1);
+    const float *near = coarse.x.row(cy), *far = coarse.x.row(other);
+    const int n = coarse.width * C;
+    thread_local std::vector<float> blend;
+    blend.resize(n + 2 * C);
+    float* mid = blend.data() + C;
+    for (int k = 0; k < n; ++k) mid[k] = 0.75f * near[k] + 0.25f * far[k];
+    for (int c = 0; c < C; ++c) mid[c - C] = mid[c], mid[n + c] = mid[n - C + c];
+    float* __restrict x = fine.x.row(y);
+    for (int i = 0; i < fine.width / 2; ++i) {
+      for (int c = 0; c < C; ++c) {
+        const float m = 0.75f * mid[i * C + c];
+        x[2 * i * C + c] += m + 0.25f * mid[i * C + c - C];
+        x[2 * i * C + C + c] += m + 0.25f * mid[i * C + c + C];
+      }
+    }
+    if (fine.width & 1) {
+      for (int c = 0; c < C; ++c) {
+        x[(fine.width - 1) * C + c] += 0.75f * mid[n - C + c] + 0.25f * mid[n - 2 * C + c];
+      }
     }
   });
-  return result;
 }
 
-void GridSolver::cycle(std::size_t index, const ComplexGrid& b, ComplexGrid& x) const {
-  const Level& level = levels_[index];
-  if (index + 1 == levels_.size()) {
-    for (int s = 0; s < kCoarsestSweeps; ++s) {
-      relax(level, b, x, 0);
-      relax(level, b, x, 1);
+/// The transpose of prolong_add, from `next` into the coarse level's right-hand side.
+template <class T>
+void GridSolver<T>::restrict_next(std::size_t index) {
+  Level& fine = levels_[index];
+  Level& coarse = levels_[index + 1];
+  constexpr int C = kComponents;
+  const int n = fine.width * C;
+  // Beyond the border the interpolation leant on its own cell: the outermost row counts once more.
+  const auto row_or_outermost = [&](int y) {
+    if (y < 0) return fine.next.row(0);
+    if (y == fine.height && y % 2 == 0) return fine.next.row(y - 1);
+    return y < fine.height ? fine.next.row(y) : fine.next.row(-1);
+  };
+  parallel_rows(context_, coarse.height, fine.width, [&](int cy) {
+    const float *a = row_or_outermost(2 * cy - 1), *b = fine.next.row(2 * cy);
+    const float *c = row_or_outermost(2 * cy + 1), *d = row_or_outermost(2 * cy + 2);
+    thread_local std::vector<float> blend;
+    blend.assign(n + 4 * C, 0);
+    float* mid = blend.data() + C;
+    for (int k = 0; k < n; ++k) mid[k] = 0.25f * (a[k] + d[k]) + 0.75f * (b[k] + c[k]);
+    for (int k = 0; k < C; ++k) {
+      mid[k - C] = mid[k];
+      if (fine.width % 2 == 0) mid[n + k] = mid[n - C + k];
     }
-    for (int s = 0; s < kCoarsestSweeps; ++s) {
-      relax(level, b, x, 1);
-      relax(level, b, x, 0);
+    float* __restrict out = coarse.b.row(cy);
+    for (int i = 0; i < coarse.width; ++i) {
+      for (int k = 0; k < C; ++k) {
+        const float* m = mid + 2 * i * C + k;
+        out[i * C + k] = 0.25f * (m[-C] + m[2 * C]) + 0.75f * (m[0] + m[C]);
+      }
     }
-    return;
-  }
-  relax(level, b, x, 0);
-  relax(level, b, x, 1);
-  ComplexGrid residual = apply(level, x);
-  for (std::size_t i = 0; i < residual.data.size(); ++i) {
-    residual.data[i] = b.data[i] - residual.data[i];
-  }
-  const FieldGrid<float>& coarse_mass = levels_[index + 1].mass;
-  const ComplexGrid coarse_b = restrict_sum(residual, coarse_mass.width, coarse_mass.height);
-  ComplexGrid correction(coarse_mass.width, coarse_mass.height);
-  cycle(index + 1, coarse_b, correction);
-  prolong_add(correction, x, context_);
+  });
+}
+
+template <class T>
+void GridSolver<T>::solve_coarsest() {
+  Level& level = levels_.back();
+  for (int s = 0; s < kCoarsestSweeps; ++s) relax(level, 0), relax(level, 1);
+  for (int s = 0; s < kCoarsestSweeps; ++s) relax(level, 1), relax(level, 0);
+}
+
+template <class T>
+void GridSolver<T>::cycle(std::size_t index) {
+  if (index + 1 == levels_.size()) return solve_coarsest();
+  Level& level = levels_[index];
+  relax(level, 0);
+  relax(level, 1);
+  find_residual(level);
+  restrict_next(index);
+  Plane& correction = levels_[index + 1].x;
+  std::fill(correction.data.begin(), correction.data.end(), 0.0f);
+  cycle(index + 1);
+  prolong_add(index);
   // The mirrored order makes the cycle symmetric, which conjugate gradients need.
-  relax(level, b, x, 1);
-  relax(level, b, x, 0);
+  relax(level, 1);
+  relax(level, 0);
 }
 
-int GridSolver::solve(const ComplexGrid& b, ComplexGrid& x, double tolerance,
-                      int max_iterations) const {
-  const Level& finest = levels_.front();
-  ComplexGrid residual = apply(finest, x);
-  for (std::size_t i = 0; i < b.data.size(); ++i) residual.data[i] = b.data[i] - residual.data[i];
+template <class T>
+FieldGrid<T> GridSolver<T>::estimate(const FieldGrid<T>& b) {
+  load(b, levels_.front().b);
+  for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
+    levels_[i].next = levels_[i].b;
+    restrict_next(i);
+  }
+  std::fill(levels_.back().x.data.begin(), levels_.back().x.data.end(), 0.0f);
+  solve_coarsest();
+  // A cycle overwrites the right-hand sides of the coarser levels only, which are done with.
+  for (std::size_t i = levels_.size() - 1; i-- > 0;) {
+    std::fill(levels_[i].x.data.begin(), levels_[i].x.data.end(), 0.0f);
+    prolong_add(i);
+    cycle(i);
+  }
+  FieldGrid<T> x(b.width, b.height);
+  store(levels_.front().x, x);
+  return x;
+}
+
+template <class T>
+void GridSolver<T>::improve(const FieldGrid<T>& b, FieldGrid<T>& x, int cycles) {
+  load(b, levels_.front().b);
+  load(x, levels_.front().x);
+  for (int c = 0; c < cycles; ++c) cycle(0);
+  store(levels_.front().x, x);
+}
+
+template <class T>
+int GridSolver<T>::solve(const FieldGrid<T>& b, FieldGrid<T>& x, double tolerance,
+                         int max_iterations) {
+  Level& finest = levels_.front();
+  load(b, finest.b);
+  load(x, finest.x);
+  find_residual(finest);
+  FieldGrid<T> residual(b.width, b.height), corrected = residual, direction = residual,
+                                            image = residual;
+  store(finest.next, residual);
   const double target = tolerance * tolerance * dot(b, b, context_);
-  ComplexGrid direction(x.width, x.height);
   double previous = 0;
   int iteration = 0;
   while (iteration < max_iterations && dot(residual, residual, context_) > target) {
-    ComplexGrid corrected(x.width, x.height);
-    cycle(0, residual, corrected);
+    load(residual, finest.b);
+    std::fill(finest.x.data.begin(), finest.x.data.end(), 0.0f);
+    cycle(0);
+    store(finest.x, corrected);
     const double current = dot(residual, corrected, context_);
     if (!(current > 0)) break;
-    const double beta = previous > 0 ? current / previous : 0;
-    for (std::size_t i = 0; i < x.data.size(); ++i) {
-      direction.data[i] = corrected.data[i] + static_cast<float>(beta) * direction.data[i];
-    }
+    combine(corrected, previous > 0 ? current / previous : 0, direction, direction);
     previous = current;
-    const ComplexGrid image = apply(finest, direction);
-    const double step = current / dot(direction, image, context_);
-    add_scaled(x, step, direction);
-    add_scaled(residual, -step, image);
+    std::fill(finest.b.data.begin(), finest.b.data.end(), 0.0f);
+    load(direction, finest.x);
+    find_residual(finest);  // minus the matrix times the direction
+    store(finest.next, image);
+    const double step = -current / dot(direction, image, context_);
+    combine(x, step, direction, x);
+    combine(residual, step, image, residual);
     ++iteration;
   }
   return iteration;
 }
+
+template class GridSolver<float>;
+template class GridSolver<std::complex<float>>;
 
 }  // namespace quadrille

@@ -96,6 +96,17 @@ void mesh_to_count(Quadrangulation& result, const Raster& picture, double edge,
   }
 }
 
+std::vector<std::pair<std::string, double>> phase_figures(const CrossField& cross) {
+  std::vector<std::pair<std::string, double>> figures;
+  for (const CrossFieldPhase& phase : cross.phases) {
+    figures.emplace_back(phase.name + " singularities",
+                         static_cast<double>(phase.singularities.size()));
+    figures.emplace_back(phase.name + " energy", phase.energy);
+    figures.emplace_back(phase.name + " misalignment", phase.misalignment_degrees);
+  }
+  return figures;
+}
+
 bool is_valid(const Quadrangulation& result, const Raster& picture) {
   if (result.mesh.quad_count() == 0) return false;
   const auto violations = result.outline.empty()
@@ -133,8 +144,7 @@ void mesh_by_fields(Quadrangulation& result, const Raster& picture, double edge,
   if (!whole) confine_features(result.features, result.outline, result.working);
   clock.finish("features");
   result.cross = cross_field(result.features, options.cross_field, context);
-  clock.finish("cross field",
-               {{"singularities", static_cast<double>(singularities(result.cross).size())}});
+  clock.finish("cross field", phase_figures(result.cross));
   mesh_to_count(result, picture, edge, options, clock, context);
   snap_to_features(result.mesh, shown, options.snap, context);
   clock.finish("snapping");

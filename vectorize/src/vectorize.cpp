@@ -26,6 +26,7 @@ VectorizeReport describe(const Raster& picture, const Quadrangulation& quads,
     ++(s.quarter_index > 0 ? report.positive_singularities : report.negative_singularities);
   }
   report.misalignment_degrees = misalignment_degrees(quads.cross, quads.features);
+  report.cross_field_phases = quads.cross.phases;
   for (int q = 0; q < patches.patch_count(); ++q) {
     report.folded += !certify_fold_free(patch_geometry(patches, q));
   }

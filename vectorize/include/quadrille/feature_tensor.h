@@ -27,7 +27,8 @@ struct FeatureTensor {
   /// Unit-modulus target e^{4 i theta} of the cross field, theta along the feature; 0 where the
   /// picture is flat.
   FieldGrid<std::complex<float>> direction;
-  /// How much the direction matters: 0 in flat regions to 1 on strong features.
+  /// How much the direction matters: 0 in flat regions and where directions contradict each other
+  /// to 1 on strong features.
   FieldGrid<float> weight;
   /// Colour gradient: points along the strongest change (either way), its length is that change in
   /// sRGB units per working pixel.
@@ -47,7 +48,8 @@ struct FeatureOptions {
 
 /// Colour gradient (Di Zenzo) by Gaussian derivatives; the four-fold representation
 /// |grad|^2 e^{4 i (phi + pi/2)} smoothed by a Gaussian; the weight is its modulus over a robust
-/// scale (no exponential as in the paper's w = e^G, which overflows for 8-bit gradients).
+/// scale, times its coherence (no exponential as in the paper's w = e^G, which overflows for 8-bit
+/// gradients).
 FeatureTensor feature_tensor(const Raster& working_picture, const FeatureOptions& options = {},
                              const RunContext& context = {});
 

@@ -62,6 +62,7 @@ struct VectorizeReport {
   int quads = 0, vertices = 0, irregular_vertices = 0;
   int positive_singularities = 0, negative_singularities = 0;
   double misalignment_degrees = 0;
+  std::vector<CrossFieldPhase> cross_field_phases;
   int folded = 0;  ///< patches whose geometry is not certified fold-free
   bool fallback = false;
   MeshRegion region = MeshRegion::whole;  ///< of the mesh that was made
