@@ -21,20 +21,24 @@ void CountCalibration::observe(int quads) {
 }
 
 /// Between the nearest trials with too few and too many quads, as far as they are in order; else
-/// from the best trial, quads being proportional to cells.
+/// where the median trial's quads per cell would give the wished number.
 double CountCalibration::next_guess() const {
-  const Trial *few = nullptr, *many = nullptr, *best = &trials_.front();
+  const Trial *few = nullptr, *many = nullptr;
+  std::vector<double> gains;
   for (const Trial& t : trials_) {
     if (t.log_quads < log_wished_ && (!few || t.log_cells > few->log_cells)) few = &t;
     if (t.log_quads >= log_wished_ && (!many || t.log_cells < many->log_cells)) many = &t;
-    if (std::abs(t.log_quads - log_wished_) < std::abs(best->log_quads - log_wished_)) best = &t;
+    gains.push_back(t.log_quads - t.log_cells);
   }
   if (few && many && few->log_cells < many->log_cells) {
     const double share = (log_wished_ - few->log_quads) / (many->log_quads - few->log_quads);
     return few->log_cells +
            std::clamp(share, kFromEnds, 1 - kFromEnds) * (many->log_cells - few->log_cells);
   }
-  return best->log_cells + std::clamp(log_wished_ - best->log_quads, -kLongestStep, kLongestStep);
+  const auto median = gains.begin() + static_cast<std::ptrdiff_t>(gains.size() / 2);
+  std::ranges::nth_element(gains, median);
+  const double last = trials_.back().log_cells;
+  return last + std::clamp(log_wished_ - *median - last, -kLongestStep, kLongestStep);
 }
 
 /// The nearest place to a guess, by growing steps to either side, that was not tried yet.

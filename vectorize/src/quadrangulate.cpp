@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -46,10 +47,13 @@ bool has_features(const FeatureTensor& features) {
                      [](unsigned char e) { return e != 0; });
 }
 
-/// Whole rows and columns may keep stepping over the wished count, so later rounds give them up.
-SideDivision side_division(int round) {
-  if (round < 3) return SideDivision::square;
-  return round % 2 ? SideDivision::counted : SideDivision::none;
+/// Whole rows and columns of square cells may keep stepping over the wished count, so later rounds
+/// stretch the cells or give up whole ones.
+SideFit side_fit(int round) {
+  constexpr double kCounted = 0.02;
+  constexpr std::array<double, 5> kStretches = {1, 1.1, 1 / 1.1, 1.2, 1 / 1.2};
+  if (round < 3) return {};
+  return {round % 2 != 0, kCounted, kStretches[(round - 3) / 2 % kStretches.size()]};
 }
 
 QuadMesh extract(const Quadrangulation& fields, const ScaleField& scale,
@@ -76,7 +80,7 @@ void mesh_to_count(Quadrangulation& result, const Raster& picture, double edge,
   const int rounds = whole ? kCalibrationRounds : kOutlineRounds;
   for (int round = 0; round < rounds; ++round) {
     ScaleField scale =
-        scaled_to_count(relative, result.cross, calibration.cells(), side_division(round));
+        scaled_to_count(relative, result.cross, calibration.cells(), side_fit(round));
     clock.finish("scale field");
     PositionField position =
         position_field(result.features, result.cross, scale, options.position, context);

@@ -157,7 +157,7 @@ ScaleField relative_scale(const FeatureTensor& features, const CrossField& field
 }
 
 ScaleField scaled_to_count(const ScaleField& relative, const CrossField& field, double count,
-                           SideDivision division) {
+                           const SideFit& fit) {
   const int w = field.z.width, h = field.z.height;
   double cells = 0, across = 0, down = 0;
   FieldGrid<float> horizontal(w, h);  // cos^2 of the x-axis' angle
@@ -172,11 +172,9 @@ ScaleField scaled_to_count(const ScaleField& relative, const CrossField& field, 
   const double factor = std::sqrt(cells / count);
   across /= factor * h;
   down /= factor * w;
-  // What a stretched cell costs beside a wrong number of cells, both as logarithms.
-  const double stretch_cost = division == SideDivision::square ? 0.2 : 0.02;
-  const auto [columns, rows] = division == SideDivision::none
-                                   ? std::array<double, 2>{across, down}
-                                   : whole_cells(across, down, stretch_cost);
+  const std::array<double, 2> wished = {across / fit.stretch, down * fit.stretch};
+  const auto [columns, rows] =
+      fit.whole_cells ? whole_cells(wished[0], wished[1], fit.stretch_cost) : wished;
   const auto fit_x = static_cast<float>(factor * across / columns);
   const auto fit_y = static_cast<float>(factor * down / rows);
   ScaleField scale = relative;

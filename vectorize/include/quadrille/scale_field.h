@@ -41,15 +41,19 @@ ScaleField relative_scale(const FeatureTensor& features, const CrossField& field
                           const ScaleOptions& options = {}, const RunContext& context = {});
 
 /// How the lengths are fitted to the sides of the picture where the cross is aligned with them.
-enum class SideDivision {
-  square,   ///< they divide the sides; cells are stretched as little as that takes
-  counted,  ///< they divide the sides; cells are stretched to keep their number
-  none,     ///< the lattice gets dislocations near the sides instead
+struct SideFit {
+  /// They divide the sides; otherwise the lattice gets dislocations near them.
+  bool whole_cells = true;
+  /// Where they divide the sides, what a stretched cell costs beside a wrong number of cells, both
+  /// as logarithms; > 0. Less keeps closer to the number.
+  double stretch_cost = 0.2;
+  /// Cells are stretched by this factor horizontally and shrunk by it vertically; > 0.
+  double stretch = 1;
 };
 
 /// Relative lengths to lengths such that sum 1 / (length_x length_y) is `count` > 0, or near it
 /// where they divide the sides.
 ScaleField scaled_to_count(const ScaleField& relative, const CrossField& field, double count,
-                           SideDivision division = SideDivision::square);
+                           const SideFit& fit = {});
 
 }  // namespace quadrille
