@@ -54,11 +54,14 @@ void draw_removed_singularities(Canvas& canvas, const Quadrangulation& stages) {
   }
 }
 
+/// Working pixels between two drawn crosses: whole, so that no row or column is wider than others.
+double whole_step(double wished) { return std::max(1.0, std::round(wished)); }
+
 void draw_cross_field(Canvas& canvas, const Quadrangulation& stages) {
   constexpr double kSpacing = 20, kArm = 8;  // canvas pixels
   const CrossField& cross = stages.cross;
-  const double step_x = std::max(1.0, kSpacing / canvas.zoom() / stages.working.scale_x);
-  const double step_y = std::max(1.0, kSpacing / canvas.zoom() / stages.working.scale_y);
+  const double step_x = whole_step(kSpacing / canvas.zoom() / stages.working.scale_x);
+  const double step_y = whole_step(kSpacing / canvas.zoom() / stages.working.scale_y);
   for (double y = step_y / 2; y < cross.z.height; y += step_y) {
     for (double x = step_x / 2; x < cross.z.width; x += step_x) {
       const int i = static_cast<int>(x), j = static_cast<int>(y);

@@ -8,19 +8,23 @@
 namespace quadrille {
 namespace {
 
-constexpr int kLongestChain = 4;  // faces; 5 remove a little more at twice the cost
+constexpr int kLongestChain = 4;   // faces; 5 remove a little more at twice the cost
+constexpr int kTick = 1024;        // faces between two reports
+constexpr double kProgress = 0.5;  // of the extraction, when the faces are cleaned up
 constexpr int kMostRounds = 2;
 constexpr int kMostTries = 6;  // candidates at one place that may fail the guard
 
 class Cleaner {
  public:
-  explicit Cleaner(FaceMesh& mesh) : mesh_(mesh), editor_(mesh) {}
+  Cleaner(FaceMesh& mesh, const RunContext& context)
+      : mesh_(mesh), context_(context), editor_(mesh) {}
 
   /// Short chains first; true when anything changed.
   bool redivide_all() {
     bool changed = false;
     for (int length = 2; length <= kLongestChain; ++length) {
       for (int f = 0; f < mesh_.face_slots(); ++f) {
+        tick(f);
         // Two faces exchange an edge; longer chains bring triangles together.
         const bool is_start = length == 2 ? is_irregular(f) : mesh_.face(f).size == 3;
         if (is_start) changed = redivide(f, length) || changed;
@@ -32,6 +36,7 @@ class Cleaner {
   bool collapse_all() {
     bool changed = false;
     for (int f = 0; f < mesh_.face_slots(); ++f) {
+      tick(f);
       if (is_irregular(f)) changed = collapse(f) || changed;
     }
     return changed;
@@ -45,9 +50,15 @@ class Cleaner {
   };
 
   FaceMesh& mesh_;
+  const RunContext& context_;
   GuardedEditor editor_;
   std::vector<int> chain_, outline_;
   std::vector<Candidate> candidates_;
+
+  /// Lets the observer cancel.
+  void tick(int f) const {
+    if (f % kTick == 0) context_.progress("quads", kProgress);
+  }
 
   bool redivide(int f, int length) {
     const Face& face = mesh_.face(f);
@@ -173,8 +184,8 @@ class Cleaner {
 
 }  // namespace
 
-void clean_up(FaceMesh& mesh) {
-  Cleaner cleaner(mesh);
+void clean_up(FaceMesh& mesh, const RunContext& context) {
+  Cleaner cleaner(mesh, context);
   for (int round = 0; round < kMostRounds && cleaner.redivide_all(); ++round) {
   }
   if (cleaner.collapse_all()) cleaner.redivide_all();

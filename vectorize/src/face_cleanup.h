@@ -1,6 +1,7 @@
 #pragma once
 
 #include "face_mesh.h"
+#include "quadrille/run_context.h"
 
 namespace quadrille {
 
@@ -13,7 +14,7 @@ namespace quadrille {
 ///   to two quads: the pairing of two odd faces. The points stay.
 /// - Collapse of an edge or of a quad along a diagonal (and so of doublets), where that still pays.
 ///
-/// Deterministic; the time is linear in the number of faces.
-void clean_up(FaceMesh& mesh);
+/// Deterministic; the time is linear in the number of faces. Throws Error{cancelled}.
+void clean_up(FaceMesh& mesh, const RunContext& context = {});
 
 }  // namespace quadrille

@@ -225,6 +225,7 @@ void snap_to_features(QuadMesh& mesh, const Raster& picture, const SnapOptions& 
                   [&](int e) { pulls[e] = edge_pull(mesh, e, means, colours); });
     std::vector<Matrix2d> matrix(mesh.vertex_count(), Matrix2d::Zero());
     std::vector<Vector2d> wish(mesh.vertex_count(), Vector2d::Zero());
+    context.progress("snapping", (round + 0.7) / options.rounds);
     for (int e = 0; e < mesh.edge_count(); ++e) {
       const int h = mesh.halfedge(e);
       const int ends[2] = {mesh.origin(h), mesh.tip(h)};

@@ -13,8 +13,8 @@ namespace {
 
 // Loops of an outline with fewer square pixels are specks and pinholes.
 constexpr double kLeastLoopArea = 4;
-// A loop takes some 8 quads at least, and half of the quads are to stay for the inside.
-constexpr int kLeastQuadsPerLoop = 16;
+// A small loop takes some 12 quads, and half of the quads are to stay for the inside.
+constexpr int kLeastQuadsPerLoop = 24;
 
 }  // namespace
 
@@ -28,11 +28,10 @@ std::vector<Loop> wanted_outline(const Raster& picture, const VectorizeOptions& 
   }
   const std::size_t most = std::max(1, options.quads / kLeastQuadsPerLoop);
   if (outline.size() > most) {
-    std::vector<double> areas;
-    for (const Loop& loop : outline) areas.push_back(std::abs(signed_area(loop)));
-    std::nth_element(areas.begin(), areas.begin() + most, areas.end(), std::greater<>());
     // A loop inside of another one is smaller, so what goes leaves nothing behind in it.
-    outline = alpha_outline(picture, std::nextafter(areas[most], INFINITY));
+    std::ranges::stable_sort(outline, std::greater<>(),
+                             [](const Loop& loop) { return std::abs(signed_area(loop)); });
+    outline.resize(most);
   }
   if (is_frame(outline, picture.width, picture.height, kLeastLoopArea)) return {};
   return outline;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "convex_faces.h"
 #include "divide_faces.h"
@@ -80,14 +79,14 @@ QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
   for (const GridPoint& p : triangulation.points()) {
     points.emplace_back(static_cast<double>(p.x) / units, static_cast<double>(p.y) / units);
   }
-  return divide_faces(std::move(points), convex_faces(triangulation));
+  return divide_faces(std::move(points), convex_faces(triangulation), context);
 }
 
 QuadMesh divide_faces(std::vector<Eigen::Vector2d> points,
-                      const std::vector<std::vector<int>>& polygons,
-                      const OutlineSamples* outline) {
+                      const std::vector<std::vector<int>>& polygons, const RunContext& context,
+                      const OutlineSamples* outline, bool clean) {
   FaceMesh faces(std::move(points), polygons);
-  clean_up(faces);
+  if (clean) clean_up(faces, context);
   std::vector<VertexGuide> guides;
   QuadMesh mesh = faces.split(guides);
   if (outline) {

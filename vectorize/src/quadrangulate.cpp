@@ -18,7 +18,7 @@ namespace {
 constexpr int kCalibrationRounds = 24;  // one or two for most pictures
 // An outline may need more quads than wished, whatever the lattice.
 constexpr int kOutlineRounds = 6;
-constexpr double kCloseEnough = 0.05;  // of the wished count
+constexpr double kCloseEnough = 0.049;  // of the wished count
 // Cells asked for over cells made where the scale is graded: points too close to each other merge.
 constexpr double kGradingLoss = 1.1;
 // Lets a picture of exactly 4 quads a side count as one.
@@ -56,6 +56,13 @@ SideFit side_fit(int round) {
   return {round % 2 != 0, kCounted, kStretches[(round - 3) / 2 % kStretches.size()]};
 }
 
+bool is_valid(const QuadMesh& mesh, const std::vector<Loop>& outline, const Raster& picture) {
+  if (mesh.quad_count() == 0) return false;
+  const auto violations = outline.empty() ? validate(mesh, picture.width, picture.height)
+                                          : validate_region(mesh, picture.width, picture.height);
+  return violations.empty();
+}
+
 QuadMesh extract(const Quadrangulation& fields, const ScaleField& scale,
                  const PositionField& position, const Raster& picture, const RunContext& context) {
   if (fields.outline.empty()) {
@@ -87,15 +94,16 @@ void mesh_to_count(Quadrangulation& result, const Raster& picture, double edge,
     clock.finish("position field");
     QuadMesh mesh = extract(result, scale, position, picture, context);
     const int quads = mesh.quad_count();
+    const bool valid = is_valid(mesh, result.outline, picture);
     clock.finish("quads", {{"asked", std::round(4 * share * calibration.cells())},
                            {"quads", static_cast<double>(quads)}});
-    if (round == 0 || relative_miss(quads, options.quads) <
-                          relative_miss(result.mesh.quad_count(), options.quads)) {
+    if (round == 0 || (valid && relative_miss(quads, options.quads) <
+                                    relative_miss(result.mesh.quad_count(), options.quads))) {
       result.mesh = std::move(mesh);
       result.scale = std::move(scale);
       result.position = std::move(position);
     }
-    if (relative_miss(quads, options.quads) <= kCloseEnough) return;
+    if (valid && relative_miss(quads, options.quads) <= kCloseEnough) return;
     calibration.observe(quads);
   }
 }
@@ -109,14 +117,6 @@ std::vector<std::pair<std::string, double>> phase_figures(const CrossField& cros
     figures.emplace_back(phase.name + " misalignment", phase.misalignment_degrees);
   }
   return figures;
-}
-
-bool is_valid(const Quadrangulation& result, const Raster& picture) {
-  if (result.mesh.quad_count() == 0) return false;
-  const auto violations = result.outline.empty()
-                              ? validate(result.mesh, picture.width, picture.height)
-                              : validate_region(result.mesh, picture.width, picture.height);
-  return violations.empty();
 }
 
 /// The lattice trimmed by the outline, with about the wished count.
@@ -172,12 +172,12 @@ Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& opt
   const bool worthwhile = whole || edge >= kShortestRegionEdge;
   const bool has_room = worthwhile && 2 * edge <= std::min(width, height) * kRoundingSlack;
   if (has_room && !options.lattice) mesh_by_fields(result, picture, edge, options, context);
-  if (is_valid(result, picture)) return result;
+  if (is_valid(result.mesh, result.outline, picture)) return result;
 
   result.fallback = !options.lattice;
   result.mesh = whole ? lattice_mesh(width, height, options.quads)
                       : trimmed_lattice(result.outline, picture, area, options.quads);
-  if (!is_valid(result, picture)) {
+  if (!is_valid(result.mesh, result.outline, picture)) {
     throw Error(ErrorCode::numerical_failure,
                 "no valid mesh was found for the picture's outline; mesh the whole picture");
   }

@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <set>
 
@@ -10,6 +8,7 @@
 #include "inside_test.h"
 #include "lattice_graph.h"
 #include "outline_sampling.h"
+#include "quadrille/mesh_region.h"
 #include "quadrille/quad_extraction.h"
 #include "triangulation.h"
 
@@ -150,7 +149,8 @@ std::vector<std::vector<int>> inside_faces(const Triangulation& triangulation,
 }
 
 QuadMesh mesh_inside(const LatticeGraph& graph, const std::vector<Loop>& outline,
-                     const Spacing& spacing, double width, double height) {
+                     const Spacing& spacing, double width, double height,
+                     const RunContext& context) {
   const OutlineSamples samples = sample_outline(outline, graph, spacing, width, height);
   const double units = units_per_pixel(graph, width, height);
   std::set<std::array<int, 2>> border;
@@ -169,7 +169,10 @@ QuadMesh mesh_inside(const LatticeGraph& graph, const std::vector<Loop>& outline
       v = point_of_vertex[v];
     }
   }
-  return divide_faces(std::move(points), faces, &samples);
+  QuadMesh mesh = divide_faces(points, faces, context, &samples);
+  if (validate_region(mesh, width, height).empty()) return mesh;
+  // Strands of the outline that nearly touch may leave no room for other connectivity.
+  return divide_faces(std::move(points), faces, context, &samples, /*clean=*/false);
 }
 
 LatticeGraph regular_graph(double width, double height, double edge) {
@@ -207,14 +210,13 @@ QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
     const int y = std::clamp(static_cast<int>(p.y() / scale_y), 0, field.z.height - 1);
     return mean_scale * std::min(scale.along_x(x, y), scale.along_y(x, y));
   };
-  return mesh_inside(graph, outline, spacing, width, height);
+  return mesh_inside(graph, outline, spacing, width, height, context);
 }
 
 QuadMesh lattice_mesh(const std::vector<Loop>& outline, double width, double height, double edge) {
   const double face_edge = 2 * edge;  // faces are divided once
-  return mesh_inside(
-      regular_graph(width, height, face_edge), outline, [=](const Vector2d&) { return face_edge; },
-      width, height);
+  return mesh_inside(regular_graph(width, height, face_edge), outline,
+                     [=](const Vector2d&) { return face_edge; }, width, height, {});
 }
 
 }  // namespace quadrille

@@ -25,10 +25,10 @@ enum class MeshRegion {
 
 struct VectorizeOptions {
   /// Wished number of quads, 1 to kMaxQuads; met within 5 % from 200 quads up. Of an opaque region
-  /// it is met where the outline can be followed with so few.
+  /// it is met where the outline can be followed with so few. The fields take some 5 KB a quad.
   int quads = 3000;
   /// A picture without transparent pixels gives the same for both. Loops of the outline below 4
-  /// square pixels, and the smallest ones where there are more than quads / 16, are ignored.
+  /// square pixels, and the smallest ones where there are more than quads / 24, are ignored.
   MeshRegion region = MeshRegion::whole;
   CrossFieldOptions cross_field;
   ScaleOptions scale;
@@ -48,7 +48,8 @@ struct Quadrangulation {
   PositionField position;
   QuadMesh mesh;  ///< source pixels
   /// The axis-aligned lattice took the place of the fields' mesh, because the picture is smaller
-  /// than 4 quads a side.
+  /// than 4 quads a side, because the quads of an opaque region are smaller than a source pixel,
+  /// or, for an outline with strands that nearly touch, because no mesh of the fields was valid.
   bool fallback = false;
   /// The border that an opaque region's mesh follows, source pixels; empty for a mesh of the whole.
   std::vector<Loop> outline;
