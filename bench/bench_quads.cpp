@@ -9,6 +9,7 @@
 #include "pictures.h"
 #include "quadrille/error.h"
 #include "quads/baseline.h"
+#include "quads/field_phases.h"
 #include "quads/growth.h"
 #include "quads/picture_figures.h"
 #include "quads/recall_figures.h"
@@ -112,6 +113,7 @@ bool run(const Options& options) {
   for (const fs::path& folder : picture_folders(options.folders)) {
     std::vector<TableRow> rows = run_folder(folder, options, good);
     if (rows.empty()) continue;
+    match_local_smoothing(rows);
     if (options.quality && options.baseline_file.empty()) {
       add_baseline(rows, kBaseline, options.picture.quads);
     }

@@ -15,15 +15,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kTimedRuns = 3;
 
-Json field_figures(const Quadrangulation& quads) {
-  Json fields = Json::object();
-  for (const FieldPhase& phase : field_phases(quads)) {
-    fields[phase.name] = {{"singularities", phase.singularities},
-                          {"misalignment", phase.misalignment}};
-  }
-  return fields;
-}
-
 Json shape_figures(const QuadMesh& mesh, const Raster& picture) {
   const ShapeStatistics shape = shape_statistics(mesh);
   return {{"jacobian_min", shape.jacobian_min},       {"jacobian_p5", shape.jacobian_p5},

@@ -10,9 +10,9 @@ struct PictureOptions {
   int threads = 0;
 };
 
-/// Everything but recall that is measured on one picture: `front` (see FrontHalf), `fields` (phase
-/// to singularities and misalignment), `shape` (ShapeStatistics, aligned), and `ours` and
-/// `lattice`, each with quads, mae and psnr of the fitted patches drawn at 1x.
+/// Everything but recall that is measured on one picture: `front` (see FrontHalf), `fields` (see
+/// field_figures()), `shape` (ShapeStatistics, aligned), and `ours` and `lattice`, each with quads,
+/// mae and psnr of the fitted patches drawn at 1x.
 nlohmann::ordered_json picture_figures(const std::filesystem::path& picture,
                                        const PictureOptions& options);
 

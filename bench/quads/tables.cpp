@@ -36,6 +36,25 @@ void print_share_below(const std::vector<TableRow>& rows, const std::string& fir
   if (count) fmt::print("  {} on {} of {} ({:.0f} %)\n", what, lower, count, 100.0 * lower / count);
 }
 
+/// The mean singularities of one phase of the field over those of the others.
+void print_ratios(const std::vector<TableRow>& rows, const std::string& at,
+                  const std::string& phase) {
+  const auto mean_of = [&](const std::string& which, const char* figure) {
+    return mean(values(rows, {"", at + "/" + which + "/" + figure}));
+  };
+  const double ours = mean_of(phase, "singularities");
+  for (const std::string& other : members(rows, at)) {
+    if (other == phase) continue;
+    fmt::print("  {} / {}: {:.3f}", phase, other, ours / mean_of(other, "singularities"));
+    const double alignment = mean_of(other, "alignment");
+    if (std::isfinite(alignment)) {
+      fmt::print(" at {:+.2f} degrees, alignment {:.2f}",
+                 mean_of(other, "misalignment") - mean_of(phase, "misalignment"), alignment);
+    }
+    fmt::print("\n");
+  }
+}
+
 std::vector<Column> with_stages(std::vector<Column> columns, const std::vector<TableRow>& rows,
                                 const std::string& front) {
   for (const std::string& stage : members(rows, front + "/stages")) {
@@ -76,12 +95,16 @@ std::vector<Column> recall_columns(const std::string& at) {
 }  // namespace
 
 void print_fields(const std::string& of, const std::vector<TableRow>& rows) {
+  const std::string at = "/fields/phases";
   std::vector<Column> columns;
-  for (const std::string& phase : members(rows, "/fields")) {
-    columns.push_back({phase, "/fields/" + phase + "/singularities", 1, 1, Worst::highest});
-    columns.push_back({"degrees", "/fields/" + phase + "/misalignment", 2, 1, Worst::highest});
+  for (const std::string& phase : members(rows, at)) {
+    columns.push_back({phase, at + "/" + phase + "/singularities", 1, 1, Worst::highest});
+    columns.push_back({"degrees", at + "/" + phase + "/misalignment", 2, 1, Worst::highest});
+    columns.push_back({"energy", at + "/" + phase + "/energy", 0, 1, Worst::highest});
   }
-  print_table("Singularities of the cross field and its misalignment: " + of, columns, rows);
+  print_table("Singularities of the cross field, its misalignment and energy: " + of, columns,
+              rows);
+  print_ratios(rows, at, "cancelled");
 }
 
 void print_cost(const std::string& of, const std::vector<TableRow>& rows) {
