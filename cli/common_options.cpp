@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "quadrille/image_file.h"
+
 namespace quadrille::cli {
 
 Verbosity RunOptions::verbosity() const {
@@ -33,6 +35,7 @@ VectorizeOptions MeshOptions::vectorize_options() const {
   options.cross_field.alignment = alignment;
   options.cross_field.method =
       field == "paper" ? CrossFieldMethod::paper : CrossFieldMethod::smooth;
+  if (!density.empty()) options.density = load_image(density);
   return options;
 }
 
@@ -61,6 +64,10 @@ void declare_quad_options(CLI::App& parser, MeshOptions& options) {
                   "printed, for comparison only)")
       ->check(CLI::IsMember({"smooth", "paper"}))
       ->capture_default_str();
+  parser
+      .add_option("--density", options.density,
+                  "picture of any size, stretched over IN: more quads where it is brighter")
+      ->type_name("MAP");
 }
 
 void declare_mesh_options(CLI::App& parser, MeshOptions& options) {

@@ -30,10 +30,12 @@ struct MeshOptions {
   std::string mesh = "whole";
   double alignment = CrossFieldOptions{}.alignment;
   std::string field = "smooth";
+  std::filesystem::path density;  ///< empty for none
 
+  /// Reads the density map.
   VectorizeOptions vectorize_options() const;
 };
-/// --quads, --lattice, --mesh, --alignment and --field.
+/// --quads, --lattice, --mesh, --alignment, --field and --density.
 void declare_quad_options(CLI::App& parser, MeshOptions& options);
 /// These and --fit.
 void declare_mesh_options(CLI::App& parser, MeshOptions& options);

@@ -81,6 +81,7 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
         {"mesh", report.options.mesh},
         {"alignment", report.options.alignment},
         {"field", report.options.field},
+        {"density", printable_name(report.options.density)},
         {"threads", observer.context().threads}}},
       {"quads", v.quads},
       {"vertices", v.vertices},

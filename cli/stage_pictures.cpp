@@ -90,14 +90,44 @@ Ink length_ink(double t) {
   return ink;
 }
 
+/// Crosses with the lengths and directions of the lattice's edges, with room between them.
+void draw_edge_lengths(Canvas& canvas, const Quadrangulation& stages) {
+  constexpr double kSpacing = 64, kLongestArm = 28;  // canvas pixels
+  const ScaleField& scale = stages.scale;
+  const double longest =
+      std::max(std::ranges::max(scale.along_x.data), std::ranges::max(scale.along_y.data));
+  const double shrink =
+      std::min(0.5, kLongestArm / canvas.zoom() / (longest * stages.working.scale_x));
+  const double step_x = std::max(1.0, kSpacing / canvas.zoom() / stages.working.scale_x);
+  const double step_y = std::max(1.0, kSpacing / canvas.zoom() / stages.working.scale_y);
+  for (double y = step_y / 2; y < scale.along_x.height; y += step_y) {
+    for (double x = step_x / 2; x < scale.along_x.width; x += step_x) {
+      const int i = static_cast<int>(x), j = static_cast<int>(y);
+      const double angle = stages.cross.angle(i, j);
+      const Vector2d axis(std::cos(angle), std::sin(angle)), normal(-axis.y(), axis.x());
+      const Vector2d place(i + 0.5, j + 0.5);
+      for (const Vector2d& edge :
+           {Vector2d(axis * scale.along_x(i, j)), Vector2d(normal * scale.along_y(i, j))}) {
+        const Vector2d from = place - shrink * edge, to = place + shrink * edge;
+        canvas.line(to_source(stages.working, from.x(), from.y()),
+                    to_source(stages.working, to.x(), to.y()), kDark, 2);
+      }
+    }
+  }
+}
+
 void draw_scale(Canvas& canvas, const Quadrangulation& stages) {
-  const auto& lengths = stages.scale.along_x;
+  FieldGrid<float> lengths = stages.scale.along_x;  // logarithms of the geometric means
+  for (std::size_t i = 0; i < lengths.data.size(); ++i) {
+    lengths.data[i] = 0.5f * std::log(lengths.data[i] * stages.scale.along_y.data[i]);
+  }
   const auto [shortest, longest] = std::ranges::minmax_element(lengths.data);
-  const double low = std::log(*shortest), range = std::log(*longest) - low;
+  const double low = *shortest, range = *longest - low;
   canvas.tint([&](double x, double y) -> Canvas::Tint {
-    const double length = std::log(value_at(lengths, stages.working, x, y));
+    const double length = value_at(lengths, stages.working, x, y);
     return {length_ink(range > 0 ? (length - low) / range : 0.5), 0.7};
   });
+  draw_edge_lengths(canvas, stages);
 }
 
 void draw_positions(Canvas& canvas, const Quadrangulation& stages) {
@@ -151,7 +181,9 @@ const std::vector<StagePicture>& stage_pictures() {
       {"cross-field",
        "crosses; singularities red (+1/4) and blue (-1/4), rings where one was cancelled", true,
        draw_cross_field},
-      {"scale", "edge length from violet (short) to yellow (long)", true, draw_scale},
+      {"scale",
+       "edge length from violet (short) to yellow (long); crosses show both lengths and directions",
+       true, draw_scale},
       {"position", "the lattice point of every working pixel", true, draw_positions},
       {"quads", "the mesh; vertices of valence 3 or less red, 5 or more blue", false, draw_quads},
       {"patches", "the curved edges of the patches", false, draw_patches},

@@ -93,6 +93,19 @@ TEST_F(Output, TheDocumentHasTheWishedSize) {
   EXPECT_EQ(image.metadata.at("source"), "coast_progressive.jpg");
 }
 
+TEST_F(Output, ADensityMapMovesQuadsUnlessItIsConstant) {
+  const fs::path folder = fresh_folder("density");
+  const std::string same = (folder / "same.quad").string();
+  const std::string moved = (folder / "moved.quad").string();
+  expect_silent_success(quadrille(
+      {picture(), "-o", same, "--quads", "200", "--density", sample("formats/uniform_gray.png")}));
+  EXPECT_TRUE(bytes_of(same) == bytes_of(document()));
+  expect_silent_success(
+      quadrille({picture(), "-o", moved, "--quads", "200", "--density", picture()}));
+  EXPECT_FALSE(bytes_of(moved) == bytes_of(document()));
+  EXPECT_NEAR(load_document(moved).patch_count(), 200, 20);
+}
+
 TEST_F(Output, EndingsMayBeInUpperCase) {
   const fs::path folder = fresh_folder("upper");
   expect_silent_success(quadrille({"export", document(), "-o", (folder / "A.PNG").string()}));

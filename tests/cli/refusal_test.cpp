@@ -58,6 +58,17 @@ TEST(Refusal, MissingPicture) {
   EXPECT_THAT(files_in(folder), IsEmpty());
 }
 
+TEST(Refusal, MissingDensityMap) {
+  const fs::path folder = fresh_folder("missing_map");
+  const std::string picture = sample("formats/uniform_gray.png");
+  const std::string output = (folder / "a.png").string();
+  expect_refused(quadrille({picture, "--density", "nowhere.png", "-o", output}), "nowhere.png");
+  expect_refused(
+      quadrille({"inspect", picture, "--stage", "quads", "--density", "nowhere.png", "-o", output}),
+      "nowhere.png");
+  EXPECT_THAT(files_in(folder), IsEmpty());
+}
+
 TEST(Refusal, OutputsAreCheckedBeforeTheInputIsRead) {
   const fs::path folder = fresh_folder("outputs");
   const std::string good = (folder / "a.svg").string();

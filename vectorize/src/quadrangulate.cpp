@@ -4,6 +4,7 @@
 #include <string>
 
 #include "count_calibration.h"
+#include "density_map.h"
 #include "meshed_region.h"
 #include "opaque_picture.h"
 #include "quadrille/error.h"
@@ -77,8 +78,13 @@ QuadMesh extract(const Quadrangulation& fields, const ScaleField& scale,
 /// count is close to the wished one; keeps the closest.
 void mesh_to_count(Quadrangulation& result, const Raster& picture, double edge,
                    const VectorizeOptions& options, StageClock& clock, const RunContext& context) {
+  ScaleOptions scale_options = options.scale;
+  if (!options.density.data.empty()) {
+    scale_options.density =
+        density_map(options.density, result.cross.z.width, result.cross.z.height);
+  }
   const ScaleField relative = relative_scale(result.features, result.cross,
-                                             edge / result.working.scale_x, options.scale, context);
+                                             edge / result.working.scale_x, scale_options, context);
   const bool whole = result.outline.empty();
   const double share = whole ? 1 : share_of_cells(result.outline, result.working, relative);
   // Along an outline vertices are added about as often as points merge where the scale is graded.
@@ -160,6 +166,7 @@ Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& opt
                               const RunContext& context) {
   check(options);
   check_raster(picture);
+  if (!options.density.data.empty()) check_raster(options.density);
   Quadrangulation result;
   result.outline = wanted_outline(picture, options);
   const bool whole = result.outline.empty();

@@ -30,6 +30,11 @@ struct VectorizeOptions {
   /// A picture without transparent pixels gives the same for both. Loops of the outline below 4
   /// square pixels, and the smallest ones where there are more than quads / 24, are ignored.
   MeshRegion region = MeshRegion::whole;
+  /// Where more quads are wished, or empty: a picture of any size, stretched over this one. The
+  /// mean of red, green and blue, times alpha, is the density beside that of the picture: twice the
+  /// brightness, about twice the quads per area. Black counts as 1/64 of white; a map of a single
+  /// brightness changes nothing, and the lattice does not heed it. Replaces ScaleOptions::density.
+  Raster density;
   CrossFieldOptions cross_field;
   ScaleOptions scale;
   PositionOptions position;
@@ -79,7 +84,7 @@ struct Vectorization {
 };
 
 /// Paper section 3: picture to field-aligned pure quad mesh, validated.
-/// Throws Error{invalid_argument} for options out of range or a malformed picture,
+/// Throws Error{invalid_argument} for options out of range or a malformed picture or map,
 /// Error{limit_exceeded} above kMaxQuads, Error{degenerate_input} for the opaque region of a
 /// picture without an opaque pixel, Error{cancelled}.
 Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& options = {},
