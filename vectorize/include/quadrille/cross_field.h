@@ -59,9 +59,10 @@ struct CrossFieldOptions {
   /// cancelling; at most 512. 0 leaves out that phase.
   int cancelling_radius = 64;
   /// By how much the energy may rise for each singularity that goes, in squared radians (>= 0). At
-  /// 0 it strictly falls, which removes about 60 % of them; at 1, about the energy of a singularity
-  /// with 20 pixels around it, about 75 %, and round shapes of few quads are followed less closely.
-  double cancelling_allowance = 0;
+  /// 0 it strictly falls; 1 is about the energy of a singularity with 20 pixels around it. On ten
+  /// photographs 0 / 1 / 2 left 11.2 / 7.0 / 4.2 singularities at 6.5 / 6.6 / 6.6 degrees and the
+  /// same error of the patches.
+  double cancelling_allowance = 2;
 };
 
 /// Minimises sum w_ij |z_i - z_j|^2 + lambda sum w_i |z_i - z0_i|^2 by full multigrid, then
