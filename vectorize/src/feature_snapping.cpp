@@ -6,12 +6,14 @@
 #include <cmath>
 
 #include "parallel.h"
+#include "premultiplied_colours.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
 namespace {
 
-using Colour = Eigen::Vector4f;
+using Colours = PremultipliedColours;
+using Colour = Colours::Colour;
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
@@ -26,33 +28,6 @@ constexpr double kEvenness = 0.1;      // pull toward the mean of the neighbours
 constexpr double kLongestStep = 0.35;  // of the shortest edge at a vertex
 constexpr int kItemCost = 64;          // of a quad or an edge, in the pixels of parallel_rows
 constexpr double kLongCell = 3;        // cells count as at most this many edge lengths wide
-
-/// Premultiplied colours.
-class Colours {
- public:
-  explicit Colours(const Raster& picture) : picture_(picture) {}
-  Colour pixel(int x, int y) const {
-    const std::size_t i = static_cast<std::size_t>(y) * picture_.width + x;
-    const float* p = picture_.data.data() + i * picture_.channels;
-    if (!picture_.has_alpha()) return {p[0], p[1], p[2], 0};
-    return {p[0] * p[3], p[1] * p[3], p[2] * p[3], p[3]};
-  }
-  /// Bilinear between pixel centres, constant outside them.
-  Colour at(const Vector2d& p) const {
-    const double x = std::clamp(p.x() - 0.5, 0.0, picture_.width - 1.0);
-    const double y = std::clamp(p.y() - 0.5, 0.0, picture_.height - 1.0);
-    const int i = static_cast<int>(x), j = static_cast<int>(y);
-    const int i1 = std::min(i + 1, picture_.width - 1), j1 = std::min(j + 1, picture_.height - 1);
-    const auto u = static_cast<float>(x - i), v = static_cast<float>(y - j);
-    return (1 - v) * ((1 - u) * pixel(i, j) + u * pixel(i1, j)) +
-           v * ((1 - u) * pixel(i, j1) + u * pixel(i1, j1));
-  }
-  int width() const { return picture_.width; }
-  int height() const { return picture_.height; }
-
- private:
-  const Raster& picture_;
-};
 
 double area(const QuadMesh& mesh, int q) {
   const auto& c = mesh.quads()[q];

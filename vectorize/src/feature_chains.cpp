@@ -1,0 +1,98 @@
+#include "quadrille/feature_chains.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "boundary_graph.h"
+#include "chain_network.h"
+#include "chain_tracing.h"
+#include "parallel.h"
+#include "premultiplied_colours.h"
+#include "quadrille/error.h"
+#include "watershed.h"
+
+namespace quadrille {
+namespace {
+
+// Cells of half a pixel keep both sides of thin lines apart, up to so many pixels.
+constexpr long long kFinePixels = 4'000'000;
+constexpr float kLevelsPerUnit = 255;   // of the gradient, for the watershed
+constexpr double kLeastDepth = 0.5;     // of a basin, of the pass out of it
+constexpr double kSidesPerPixel = 1.2;  // of a staircase, per length; a mean over directions
+constexpr float kNoise = 0.02f;         // gradients below it, per pixel, count as flat
+
+void check(const ChainOptions& options) {
+  const auto is_good = [](double v) { return v > 0 && std::isfinite(v); };
+  if (!is_good(options.contrast) || !is_good(options.weak_contrast) ||
+      !(options.sharpness >= 0 && options.sharpness <= 1) || !(options.min_length >= 0)) {
+    throw Error(ErrorCode::invalid_argument,
+                "feature chains need positive contrasts, a sharpness between 0 and 1, and a "
+                "length of at least 0");
+  }
+}
+
+/// Norm of the differences over a pixel at the centres of the cells, per pixel, each a mean over
+/// half a pixel on either side (Sobel's), without which it undulates along oblique edges.
+FieldGrid<float> gradient_norm(const Raster& picture, int cells_per_pixel,
+                               const RunContext& context) {
+  using Colour = PremultipliedColours::Colour;
+  const PremultipliedColours colours(picture);
+  FieldGrid<float> gradient(picture.width * cells_per_pixel, picture.height * cells_per_pixel);
+  const double cell = 1.0 / cells_per_pixel;
+  parallel_rows(context, gradient.height, gradient.width, [&](int y) {
+    for (int x = 0; x < gradient.width; ++x) {
+      std::array<std::array<Colour, 3>, 3> c;
+      for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) {
+          c[j][i] =
+              colours.at({(x + 0.5) * cell + 0.5 * (i - 1), (y + 0.5) * cell + 0.5 * (j - 1)});
+        }
+      }
+      const Colour dx = (c[0][2] - c[0][0]) + 2 * (c[1][2] - c[1][0]) + (c[2][2] - c[2][0]);
+      const Colour dy = (c[2][0] - c[0][0]) + 2 * (c[2][1] - c[0][1]) + (c[2][2] - c[0][2]);
+      gradient(x, y) = 0.25f * std::sqrt(dx.squaredNorm() + dy.squaredNorm());
+    }
+  });
+  return gradient;
+}
+
+FieldGrid<unsigned char> levels(const FieldGrid<float>& gradient) {
+  FieldGrid<unsigned char> level(gradient.width, gradient.height);
+  for (std::size_t i = 0; i < level.data.size(); ++i) {
+    const float excess = std::max(0.0f, gradient.data[i] - kNoise);
+    level.data[i] = static_cast<unsigned char>(std::min(255.0f, excess * kLevelsPerUnit));
+  }
+  return level;
+}
+
+}  // namespace
+
+ChainNetwork feature_chains(const Raster& picture, const ChainOptions& options,
+                            const RunContext& context) {
+  check_raster(picture);
+  check(options);
+  context.progress("chains", 0);
+  const int fineness = 1LL * picture.width * picture.height <= kFinePixels ? 2 : 1;
+  const FieldGrid<float> gradient = gradient_norm(picture, fineness, context);
+  context.progress("chains", 0.3);
+  const FieldGrid<unsigned char> height = levels(gradient);
+  const double cell = 1.0 / fineness;
+  BoundaryGraph graph = strong_runs(
+      picture, boundary_graph(merge_shallow_basins(height, catchment_basins(height), kLeastDepth)),
+      gradient, cell, options, context);
+  context.progress("chains", 0.7);
+  std::vector<Eigen::Vector2d> places;
+  std::vector<char> is_on_border;
+  for (const Eigen::Vector2i& node : graph.nodes) {
+    places.push_back(node.cast<double>() * cell);
+    is_on_border.push_back(node.x() == 0 || node.y() == 0 || node.x() == gradient.width ||
+                           node.y() == gradient.height);
+  }
+  simplify(graph, static_cast<std::size_t>(options.min_length * kSidesPerPixel * fineness),
+           is_on_border);
+  return chain_network(traced_chains(picture, graph, cell, context), places, picture.width,
+                       picture.height);
+}
+
+}  // namespace quadrille
