@@ -25,6 +25,14 @@ bool is_marked(const std::vector<double>& marks, const Contour& contour, double 
 
 }  // namespace
 
+Spacing spacing_of(const ScaleField& scale, double scale_x, double scale_y) {
+  return [&scale, scale_x, scale_y](const Vector2d& p) {
+    const int x = std::clamp(static_cast<int>(p.x() / scale_x), 0, scale.along_x.width - 1);
+    const int y = std::clamp(static_cast<int>(p.y() / scale_y), 0, scale.along_x.height - 1);
+    return std::sqrt(scale_x * scale_y) * std::min(scale.along_x(x, y), scale.along_y(x, y));
+  };
+}
+
 Contour::Contour(Loop points) : points_(std::move(points)) {
   double s = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -148,53 +156,15 @@ void Contour::find_marks(const Spacing& spacing, double width, double height) {
   std::sort(marks_.begin(), marks_.end());
 }
 
-ContourIndex::ContourIndex(const std::vector<Contour>& contours, double cell)
-    : contours_(contours), cell_(cell) {
-  Vector2d high = Vector2d::Constant(-INFINITY);
-  low_ = Vector2d::Constant(INFINITY);
-  for (const Contour& c : contours) {
-    for (const Vector2d& p : c.points()) low_ = low_.cwiseMin(p), high = high.cwiseMax(p);
-  }
-  if (contours.empty()) return;
-  columns_ = static_cast<int>((high.x() - low_.x()) / cell_) + 1;
-  rows_ = static_cast<int>((high.y() - low_.y()) / cell_) + 1;
-  cells_.resize(static_cast<std::size_t>(columns_) * rows_);
+std::vector<CurveSegment> segments_of(const std::vector<Contour>& contours) {
+  std::vector<CurveSegment> segments;
   for (int c = 0; c < static_cast<int>(contours.size()); ++c) {
     const Loop& points = contours[c].points();
-    for (int i = 0; i < static_cast<int>(points.size()); ++i) {
-      const Vector2d &a = points[i], &b = points[(i + 1) % points.size()];
-      const Vector2d first = (a.cwiseMin(b) - low_) / cell_, last = (a.cwiseMax(b) - low_) / cell_;
-      for (int y = static_cast<int>(first.y()); y <= static_cast<int>(last.y()); ++y) {
-        for (int x = static_cast<int>(first.x()); x <= static_cast<int>(last.x()); ++x) {
-          cells_[static_cast<std::size_t>(y) * columns_ + x].push_back({c, i});
-        }
-      }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      segments.push_back({c, points[i], points[(i + 1) % points.size()], contours[c].arc_of(i)});
     }
   }
-}
-
-std::optional<ContourIndex::Place> ContourIndex::nearest(const Vector2d& p, double reach) const {
-  std::optional<Place> best;
-  const auto cell = [&](double c, int count) {
-    return std::clamp(static_cast<int>(std::floor(c / cell_)), 0, count - 1);
-  };
-  const Vector2d q = p - low_;
-  for (int y = cell(q.y() - reach, rows_); y <= cell(q.y() + reach, rows_); ++y) {
-    for (int x = cell(q.x() - reach, columns_); x <= cell(q.x() + reach, columns_); ++x) {
-      for (const auto& [c, i] : cells_[static_cast<std::size_t>(y) * columns_ + x]) {
-        const Contour& contour = contours_[c];
-        const Vector2d a = contour.points()[i];
-        const Vector2d along = contour.points()[(i + 1) % contour.points().size()] - a;
-        const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-        const double distance = (a + t * along - p).norm();
-        if (distance <= (best ? best->distance : reach)) {
-          if (best && distance == best->distance) continue;
-          best = {c, contour.arc_of(i) + t * along.norm(), distance};
-        }
-      }
-    }
-  }
-  return best;
+  return segments;
 }
 
 }  // namespace quadrille

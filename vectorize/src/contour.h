@@ -1,15 +1,20 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <vector>
 
+#include "curve_index.h"
 #include "quadrille/planar_loops.h"
+#include "quadrille/scale_field.h"
 
 namespace quadrille {
 
 /// The wished length of mesh edges at a place, source pixels.
 using Spacing = std::function<double(const Eigen::Vector2d&)>;
+
+/// The shorter length of a scale field, which must outlive the result; `scale_x` and `scale_y` are
+/// the sizes of a working pixel.
+Spacing spacing_of(const ScaleField& scale, double scale_x, double scale_y);
 
 /// A closed polygon by arc length s, which counts modulo the length.
 class Contour {
@@ -48,28 +53,7 @@ class Contour {
   std::vector<double> marks_;
 };
 
-/// Finds the place on any of the contours that is nearest to a point.
-class ContourIndex {
- public:
-  struct Place {
-    int contour;
-    double s;
-    double distance;
-  };
-
-  /// `cell` is about the distance within which places are looked for.
-  ContourIndex(const std::vector<Contour>& contours, double cell);
-  std::optional<Place> nearest(const Eigen::Vector2d& p, double reach) const;
-
- private:
-  struct Segment {
-    int contour, index;
-  };
-  const std::vector<Contour>& contours_;
-  Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
-  double cell_;
-  int columns_ = 0, rows_ = 0;
-  std::vector<std::vector<Segment>> cells_;
-};
+/// The segments of some contours for a CurveIndex, numbered as the contours are.
+std::vector<CurveSegment> segments_of(const std::vector<Contour>& contours);
 
 }  // namespace quadrille

@@ -79,7 +79,10 @@ void FaceMesh::find_border() {
 
 void FaceMesh::keep_edge(int a, int b) {
   kept_edges_.insert(sorted(a, b));
-  has_kept_edge_[a] = has_kept_edge_[b] = 1;
+  for (const int v : {a, b}) {
+    has_kept_edge_[v] = 1;
+    guides[v] = VertexGuide::at(points[v]);
+  }
 }
 
 bool FaceMesh::is_kept(int a, int b) const {
@@ -138,7 +141,7 @@ bool FaceMesh::complete_merges(FaceEdit& edit) const {
   edit.removed.clear();
   edit.added.clear();
   for (FaceEdit::Merge& m : edit.merged) {
-    if (m.gone == m.kept || has_kept_edge_[m.gone] || has_kept_edge_[m.kept]) return false;
+    if (m.gone == m.kept || (has_kept_edge_[m.gone] && has_kept_edge_[m.kept])) return false;
     if (guides[m.gone].kind > guides[m.kept].kind) std::swap(m.gone, m.kept);
     const VertexGuide &gone = guides[m.gone], &kept = guides[m.kept];
     const bool is_free = gone.kind == VertexGuide::Kind::free;
@@ -261,8 +264,15 @@ VertexGuide FaceMesh::midpoint_guide(int a, int b, const Vector2d& midpoint) con
 }
 
 QuadMesh FaceMesh::split(std::vector<VertexGuide>& split_guides) const {
+  std::vector<HalvedEdge> kept;
+  return split(split_guides, kept);
+}
+
+QuadMesh FaceMesh::split(std::vector<VertexGuide>& split_guides,
+                         std::vector<HalvedEdge>& kept) const {
   std::vector<Vector2d> positions;
   split_guides.clear();
+  kept.clear();
   const auto add = [&](const Vector2d& p, const VertexGuide& guide) {
     positions.push_back(p);
     split_guides.push_back(guide);
@@ -286,6 +296,10 @@ QuadMesh FaceMesh::split(std::vector<VertexGuide>& split_guides) const {
       } else {
         const Vector2d p = 0.5 * (points[a] + points[b]);
         midpoints[f][k] = add(p, midpoint_guide(a, b, p));
+        if (is_kept(a, b)) {
+          const auto [first, last] = sorted(a, b);
+          kept.push_back({{first, last}, {number[first], midpoints[f][k], number[last]}});
+        }
       }
     }
     const int c = add(centre, VertexGuide::free());

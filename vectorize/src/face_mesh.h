@@ -34,6 +34,12 @@ struct FaceEdit {
   std::vector<Merge> merged;
 };
 
+/// A kept edge after the division of the faces.
+struct HalvedEdge {
+  std::array<int, 2> ends;  ///< points of the face mesh, the lower one first
+  std::array<int, 3> path;  ///< vertices of the quads: first end, midpoint, last end
+};
+
 /// A planar mesh of triangles and quads whose connectivity can be edited. Each face is to be
 /// divided once (see split()): a vertex is regular where four faces meet (on the border: as many as
 /// its angle has right angles), and a face is regular when it is a quad.
@@ -46,7 +52,7 @@ class FaceMesh {
   std::vector<Eigen::Vector2d> points;  ///< those without faces are unused
   std::vector<VertexGuide> guides;      ///< one per point
 
-  /// No edit removes this edge. Its ends stay apart from other vertices.
+  /// No edit removes this edge. Its ends stay where they are and apart from other kept edges'.
   void keep_edge(int a, int b);
 
   int vertex_count() const { return static_cast<int>(points.size()); }
@@ -72,8 +78,8 @@ class FaceMesh {
   /// By how much an edit would change it.
   int irregularity_change(const FaceEdit& edit) const;
   /// Fills in the faces that the merges of an edit remove and add. The vertex with the stricter
-  /// guide is kept. False when the two may not become one: both fixed, on different lines, ends of
-  /// kept edges, or one on the border and the other held elsewhere.
+  /// guide is kept. False when the two may not become one: both fixed, on different lines, both ends
+  /// of kept edges, or one on the border and the other held elsewhere.
   bool complete_merges(FaceEdit& edit) const;
   /// Carries out an edit, which becomes its own inverse. False, and nothing changed, when the
   /// result would not be a mesh in which inner vertices have three faces or more.
@@ -83,6 +89,7 @@ class FaceMesh {
   /// midpoints of its edges. If faces are strictly convex, so are the quads. Midpoints of border
   /// and kept edges slide along them, those between two vertices on one line along that.
   QuadMesh split(std::vector<VertexGuide>& split_guides) const;
+  QuadMesh split(std::vector<VertexGuide>& split_guides, std::vector<HalvedEdge>& kept) const;
 
  private:
   std::vector<Face> faces_;

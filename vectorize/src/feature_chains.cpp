@@ -95,4 +95,29 @@ ChainNetwork feature_chains(const Raster& picture, const ChainOptions& options,
                        picture.height);
 }
 
+void shed_weak_chains(ChainNetwork& network, double spacing, double vertices) {
+  std::vector<FeatureChain>& chains = network.chains;
+  std::stable_sort(chains.begin(), chains.end(), [](const FeatureChain& a, const FeatureChain& b) {
+    return a.contrast > b.contrast;
+  });
+  double count = 0;
+  const auto rest = std::find_if(chains.begin(), chains.end(), [&](const FeatureChain& chain) {
+    count += 1 + chain.length / spacing;
+    return count > vertices;
+  });
+  chains.erase(rest, chains.end());
+  std::vector<int> number(network.nodes.size(), -1);
+  std::vector<Eigen::Vector2d> nodes;
+  for (FeatureChain& chain : chains) {
+    for (int* node : {&chain.from, &chain.to}) {
+      if (number[*node] < 0) {
+        number[*node] = static_cast<int>(nodes.size());
+        nodes.push_back(network.nodes[*node]);
+      }
+      *node = number[*node];
+    }
+  }
+  network.nodes = std::move(nodes);
+}
+
 }  // namespace quadrille

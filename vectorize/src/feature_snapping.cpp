@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "corner_sines.h"
 #include "parallel.h"
 #include "premultiplied_colours.h"
 #include "quadrille/error.h"
@@ -132,16 +133,16 @@ Pull edge_pull(const QuadMesh& mesh, int e, const std::vector<Colour>& means,
   return pull;
 }
 
-double smallest_sine_around(const QuadMesh& mesh, int v) {
-  double smallest = 1;
-  for (const int h : mesh.fan(v)) {
-    smallest = std::min(smallest, scaled_jacobian(mesh, QuadMesh::quad_of(h)));
-  }
-  return smallest;
+bool is_on_feature(const QuadMesh& mesh, int v) {
+  return std::any_of(mesh.fan(v).begin(), mesh.fan(v).end(), [&](int h) {
+    return ((mesh.edge_flags[mesh.edge(h)] | mesh.edge_flags[mesh.edge(QuadMesh::prev(h))]) &
+            kFeatureEdge) != 0;
+  });
 }
 
-/// What a border vertex may do: slide along an axis, or nothing.
+/// What a vertex may do: nothing on a feature edge, slide along an axis or nothing on the border.
 Vector2d allowed(const QuadMesh& mesh, int v, const Vector2d& step) {
+  if (is_on_feature(mesh, v)) return Vector2d::Zero();
   if (!mesh.is_border_vertex(v)) return step;
   const int out = mesh.fan(v).front(), in = QuadMesh::prev(mesh.fan(v).back());
   const Vector2d &before = mesh.vertices[mesh.origin(in)], &here = mesh.vertices[v],

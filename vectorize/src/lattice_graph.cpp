@@ -312,4 +312,20 @@ LatticeGraph lattice_graph(const FeatureTensor& features, const CrossField& fiel
   return graph;
 }
 
+LatticeGraph scaled(LatticeGraph graph, double scale_x, double scale_y) {
+  for (Eigen::Vector2d& p : graph.points) p = {p.x() * scale_x, p.y() * scale_y};
+  for (double& s : graph.spacing) s *= std::sqrt(scale_x * scale_y);
+  return graph;
+}
+
+double units_per_pixel(const LatticeGraph& graph, double width, double height) {
+  constexpr double kUnitsPerSpacing = 512;
+  constexpr double kLeast = 64, kMostUnits = 1 << 29;
+  const double least = *std::min_element(graph.spacing.begin(), graph.spacing.end());
+  const double longest = std::max(width, height);
+  double units = kLeast;
+  while (units * least < kUnitsPerSpacing && 2 * units * longest <= kMostUnits) units *= 2;
+  return units;
+}
+
 }  // namespace quadrille

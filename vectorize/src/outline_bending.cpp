@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "corner_sines.h"
 #include "quadrille/mesh_region.h"
 
 namespace quadrille {
@@ -13,14 +14,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kSoundSine = 0.25;  // of the worst corner; below it corners must not get worse
-
-double smallest_sine_around(const QuadMesh& mesh, int v) {
-  double smallest = 1;
-  for (const int h : mesh.fan(v)) {
-    smallest = std::min(smallest, scaled_jacobian(mesh, QuadMesh::quad_of(h)));
-  }
-  return smallest;
-}
 
 /// The vertices that end border edges which touch or cross others.
 std::vector<int> conflicting_vertices(const QuadMesh& mesh) {

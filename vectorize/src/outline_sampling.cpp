@@ -260,11 +260,11 @@ OutlineSamples sample_outline(const std::vector<Loop>& outline, const LatticeGra
   std::vector<Key> keys(graph.points.size());
   double mean_spacing = 0;
   for (const double s : graph.spacing) mean_spacing += s / graph.spacing.size();
-  const ContourIndex index(contours, std::max(2.0, mean_spacing));
+  const CurveIndex index(segments_of(contours), std::max(2.0, mean_spacing));
   for (std::size_t p = 0; p < graph.points.size(); ++p) {
     const auto place = index.nearest(graph.points[p], kReach * graph.spacing[p]);
     if (!place) continue;
-    keys[p] = {place->contour, samplers[place->contour].take(place->s, graph.spacing[p])};
+    keys[p] = {place->curve, samplers[place->curve].take(place->s, graph.spacing[p])};
   }
   for (LoopSampler& s : samplers) s.fill_gaps();
   repair(samplers, contours);

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
+#include "chain_sampling.h"
 #include "convex_faces.h"
 #include "divide_faces.h"
 #include "face_cleanup.h"
+#include "feature_bending.h"
 #include "lattice_graph.h"
 #include "outline_bending.h"
 #include "shape_smoothing.h"
@@ -18,49 +20,113 @@
 namespace quadrille {
 namespace {
 
-constexpr double kGridUnitsPerSpacing = 512;  // resolution of the integer grid
-constexpr double kLeastUnitsPerPixel = 64;
+using Eigen::Vector2d;
 
-/// Integer units per source pixel: a whole number, so that the rectangle's corners are grid points.
-double units_per_pixel(const LatticeGraph& graph, double scale) {
-  double least = std::numeric_limits<double>::max();
-  for (const double s : graph.spacing) least = std::min(least, s * scale);
-  return std::max(kLeastUnitsPerPixel, std::ceil(kGridUnitsPerSpacing / least));
-}
+constexpr double kShortestPiece = 1.5;  // pixels of a chain that are divided
 
-Triangulation triangulate(const LatticeGraph& graph, double scale_x, double scale_y, double width,
-                          double height, double units) {
-  const auto w = static_cast<std::int64_t>(width * units);
-  const auto h = static_cast<std::int64_t>(height * units);
-  Triangulation triangulation(w, h);
-  std::vector<int> vertex_of(graph.points.size());
-  // Row by row, so that each walk to the next point is short.
-  std::vector<int> order(graph.points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  const double row_height = *std::max_element(graph.spacing.begin(), graph.spacing.end());
-  const auto row = [&](int i) { return std::floor(graph.points[i].y() / row_height); };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    if (row(a) != row(b)) return row(a) < row(b);
-    return graph.points[a].x() < graph.points[b].x();
-  });
-  for (const int i : order) {
-    const Eigen::Vector2d& p = graph.points[i];
-    const GridPoint g{std::clamp<std::int64_t>(std::llround(p.x() * scale_x * units), 0, w),
-                      std::clamp<std::int64_t>(std::llround(p.y() * scale_y * units), 0, h)};
-    vertex_of[i] = triangulation.insert(g);
+/// The triangulation of lattice points and chains.
+class Assembly {
+ public:
+  Assembly(const LatticeGraph& graph, const ChainNetwork& chains, const Spacing& spacing,
+           double width, double height)
+      : graph_(graph),
+        chains_(chains),
+        samples_(sample_chains(chains, graph, spacing, width, height)),
+        width_(width),
+        height_(height),
+        units_(units_per_pixel(graph, width, height)),
+        triangulation_(static_cast<std::int64_t>(width * units_),
+                       static_cast<std::int64_t>(height * units_)) {
+    for (const Vector2d& p : samples_.points) vertex_of_sample_.push_back(insert(p));
+    insert_chains();
+    insert_lattice();
   }
-  for (const auto& [a, b] : graph.edges) triangulation.insert_edge(vertex_of[a], vertex_of[b]);
-  return triangulation;
-}
+
+  const Triangulation& triangulation() const { return triangulation_; }
+  const std::vector<FeatureEdge>& features() const { return features_; }
+  std::vector<Vector2d> points() const {
+    std::vector<Vector2d> points;
+    for (const GridPoint& p : triangulation_.points()) {
+      points.emplace_back(static_cast<double>(p.x) / units_, static_cast<double>(p.y) / units_);
+    }
+    return points;
+  }
+
+ private:
+  const LatticeGraph& graph_;
+  const ChainNetwork& chains_;
+  ChainSamples samples_;
+  double width_, height_, units_;
+  Triangulation triangulation_;
+  std::vector<int> vertex_of_sample_;
+  std::vector<FeatureEdge> features_;
+
+  int insert(const Vector2d& p) {
+    const auto coordinate = [&](double c, double size) {
+      return std::clamp<std::int64_t>(std::llround(c * units_), 0,
+                                      static_cast<std::int64_t>(size * units_));
+    };
+    return triangulation_.insert({coordinate(p.x(), width_), coordinate(p.y(), height_)});
+  }
+
+  /// The strongest chains first: what comes too near to them is left out.
+  void insert_chains() {
+    std::vector<int> order(samples_.pieces.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      return chains_.chains[samples_.pieces[a].chain].contrast >
+             chains_.chains[samples_.pieces[b].chain].contrast;
+    });
+    for (const int i : order) {
+      const ChainSamples::Piece& piece = samples_.pieces[i];
+      insert_piece(ChainCurve(chains_.chains[piece.chain].points), piece.from, piece.to,
+                   vertex_of_sample_[piece.a], vertex_of_sample_[piece.b]);
+    }
+  }
+
+  void insert_piece(const ChainCurve& curve, double from, double to, int a, int b) {
+    if (a == b) return;
+    const Vector2d midpoint = curve.at(0.5 * (from + to));
+    if (triangulation_.insert_edge(a, b)) {
+      features_.push_back({{a, b}, midpoint});
+    } else if (to - from > kShortestPiece) {
+      const int middle = insert(midpoint);
+      insert_piece(curve, from, 0.5 * (from + to), a, middle);
+      insert_piece(curve, 0.5 * (from + to), to, middle, b);
+    }
+  }
+
+  void insert_lattice() {
+    std::vector<int> vertex_of(graph_.points.size(), -1);
+    // Row by row, so that each walk to the next point is short.
+    std::vector<int> order(graph_.points.size());
+    std::iota(order.begin(), order.end(), 0);
+    const double row_height = *std::max_element(graph_.spacing.begin(), graph_.spacing.end());
+    const auto row = [&](int i) { return std::floor(graph_.points[i].y() / row_height); };
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      if (row(a) != row(b)) return row(a) < row(b);
+      return graph_.points[a].x() < graph_.points[b].x();
+    });
+    for (const int i : order) {
+      const int sample = samples_.sample_of_lattice_point[i];
+      if (sample == kInTheWay) continue;
+      vertex_of[i] = sample >= 0 ? vertex_of_sample_[sample] : insert(graph_.points[i]);
+    }
+    for (const auto& [a, b] : graph_.edges) {
+      if (vertex_of[a] < 0 || vertex_of[b] < 0 || vertex_of[a] == vertex_of[b]) continue;
+      triangulation_.insert_edge(vertex_of[a], vertex_of[b]);
+    }
+  }
+};
 
 /// Vertices of the border that bending has taken off their lines stay where they are now.
 void fix_bent_border(const QuadMesh& mesh, std::vector<VertexGuide>& guides) {
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_border_vertex(v)) continue;
     const auto fan = mesh.fan(v);
-    const Eigen::Vector2d here = mesh.vertices[v];
-    const Eigen::Vector2d after = mesh.vertices[mesh.tip(fan.front())] - here;
-    const Eigen::Vector2d before = mesh.vertices[mesh.origin(QuadMesh::prev(fan.back()))] - here;
+    const Vector2d here = mesh.vertices[v];
+    const Vector2d after = mesh.vertices[mesh.tip(fan.front())] - here;
+    const Vector2d before = mesh.vertices[mesh.origin(QuadMesh::prev(fan.back()))] - here;
     if (after.x() * before.y() != after.y() * before.x()) guides[v] = VertexGuide::at(here);
   }
 }
@@ -68,27 +134,29 @@ void fix_bent_border(const QuadMesh& mesh, std::vector<VertexGuide>& guides) {
 }  // namespace
 
 QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
-                       const ScaleField& scale, const PositionField& positions, double width,
-                       double height, const RunContext& context) {
+                       const ScaleField& scale, const PositionField& positions,
+                       const ChainNetwork& chains, double width, double height,
+                       const RunContext& context) {
   context.progress("quads", 0);
-  const LatticeGraph graph = lattice_graph(features, field, scale, positions);
   const double scale_x = width / field.z.width, scale_y = height / field.z.height;
-  const double units = units_per_pixel(graph, std::min(scale_x, scale_y));
-  const Triangulation triangulation = triangulate(graph, scale_x, scale_y, width, height, units);
-  std::vector<Eigen::Vector2d> points;
-  for (const GridPoint& p : triangulation.points()) {
-    points.emplace_back(static_cast<double>(p.x) / units, static_cast<double>(p.y) / units);
-  }
-  return divide_faces(std::move(points), convex_faces(triangulation), context);
+  const LatticeGraph graph =
+      scaled(lattice_graph(features, field, scale, positions), scale_x, scale_y);
+  const Spacing spacing = spacing_of(scale, scale_x, scale_y);
+  const Assembly assembly(graph, chains, spacing, width, height);
+  return divide_faces(assembly.points(), convex_faces(assembly.triangulation()),
+                      assembly.features(), context);
 }
 
-QuadMesh divide_faces(std::vector<Eigen::Vector2d> points,
-                      const std::vector<std::vector<int>>& polygons, const RunContext& context,
+QuadMesh divide_faces(std::vector<Vector2d> points, const std::vector<std::vector<int>>& polygons,
+                      const std::vector<FeatureEdge>& features, const RunContext& context,
                       const OutlineSamples* outline, bool clean) {
   FaceMesh faces(std::move(points), polygons);
+  for (const FeatureEdge& edge : features) faces.keep_edge(edge.ends[0], edge.ends[1]);
   if (clean) clean_up(faces, context);
   std::vector<VertexGuide> guides;
-  QuadMesh mesh = faces.split(guides);
+  std::vector<HalvedEdge> halved;
+  QuadMesh mesh = faces.split(guides, halved);
+  bend_features(mesh, features, halved, guides);
   if (outline) {
     bend_outline(mesh, *outline);
     fix_bent_border(mesh, guides);

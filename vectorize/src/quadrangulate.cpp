@@ -67,8 +67,8 @@ bool is_valid(const QuadMesh& mesh, const std::vector<Loop>& outline, const Rast
 QuadMesh extract(const Quadrangulation& fields, const ScaleField& scale,
                  const PositionField& position, const Raster& picture, const RunContext& context) {
   if (fields.outline.empty()) {
-    return extract_quads(fields.features, fields.cross, scale, position, picture.width,
-                         picture.height, context);
+    return extract_quads(fields.features, fields.cross, scale, position, fields.chains,
+                         picture.width, picture.height, context);
   }
   return extract_quads(fields.features, fields.cross, scale, position, fields.outline,
                        picture.width, picture.height, context);
@@ -155,6 +155,11 @@ void mesh_by_fields(Quadrangulation& result, const Raster& picture, double edge,
   clock.finish("features");
   result.cross = cross_field(result.features, options.cross_field, context);
   clock.finish("cross field", phase_figures(result.cross));
+  if (whole && options.chain_share > 0) {
+    result.chains = feature_chains(shown, options.chains, context);
+    shed_weak_chains(result.chains, edge, options.chain_share * options.quads / 4);
+    clock.finish("chains", {{"chains", static_cast<double>(result.chains.chains.size())}});
+  }
   mesh_to_count(result, picture, edge, options, clock, context);
   snap_to_features(result.mesh, shown, options.snap, context);
   clock.finish("snapping");

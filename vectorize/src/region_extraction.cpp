@@ -17,22 +17,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kGridUnitsPerSpacing = 512;
 constexpr double kClearance = 0.3;  // of lattice points from the outline's edges, in spacings
 // Edges of the lattice between points of the outline at most so many steps apart cut off ears.
 constexpr int kEarSteps = 3;
-constexpr int kOutlineUnits = 64;  // outline coordinates are multiples of 1/64 pixel
-// Keeps the grid's coordinates in the range of the triangulation's exact predicates.
-constexpr double kMostUnits = 1 << 29;
-
-/// Units per pixel: a power of two, so that the outline's coordinates stay exact both ways.
-double units_per_pixel(const LatticeGraph& graph, double width, double height) {
-  const double least = *std::min_element(graph.spacing.begin(), graph.spacing.end());
-  double units = kOutlineUnits;
-  const double longest = std::max(width, height);
-  while (units * least < kGridUnitsPerSpacing && 2 * units * longest <= kMostUnits) units *= 2;
-  return units;
-}
 
 /// The lattice points inside that are not too near to the edges between the samples.
 std::vector<char> clear_points(const LatticeGraph& graph, const OutlineSamples& outline) {
@@ -44,7 +31,7 @@ std::vector<char> clear_points(const LatticeGraph& graph, const OutlineSamples& 
   const std::vector<Contour> contours(loops.begin(), loops.end());
   const double mean_spacing =
       std::accumulate(graph.spacing.begin(), graph.spacing.end(), 0.0) / graph.spacing.size();
-  const ContourIndex index(contours, std::max(2.0, mean_spacing));
+  const CurveIndex index(segments_of(contours), std::max(2.0, mean_spacing));
   const InsideTest inside(loops);
   std::vector<char> clear;
   for (std::size_t i = 0; i < graph.points.size(); ++i) {
@@ -169,10 +156,10 @@ QuadMesh mesh_inside(const LatticeGraph& graph, const std::vector<Loop>& outline
       v = point_of_vertex[v];
     }
   }
-  QuadMesh mesh = divide_faces(points, faces, context, &samples);
+  QuadMesh mesh = divide_faces(points, faces, {}, context, &samples);
   if (validate_region(mesh, width, height).empty()) return mesh;
   // Strands of the outline that nearly touch may leave no room for other connectivity.
-  return divide_faces(std::move(points), faces, context, &samples, /*clean=*/false);
+  return divide_faces(std::move(points), faces, {}, context, &samples, /*clean=*/false);
 }
 
 LatticeGraph regular_graph(double width, double height, double edge) {
@@ -201,15 +188,9 @@ QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
                        const RunContext& context) {
   context.progress("quads", 0);
   const double scale_x = width / field.z.width, scale_y = height / field.z.height;
-  const double mean_scale = std::sqrt(scale_x * scale_y);
-  LatticeGraph graph = lattice_graph(features, field, scale, positions);
-  for (Vector2d& p : graph.points) p = {p.x() * scale_x, p.y() * scale_y};
-  for (double& s : graph.spacing) s *= mean_scale;
-  const Spacing spacing = [&](const Vector2d& p) {
-    const int x = std::clamp(static_cast<int>(p.x() / scale_x), 0, field.z.width - 1);
-    const int y = std::clamp(static_cast<int>(p.y() / scale_y), 0, field.z.height - 1);
-    return mean_scale * std::min(scale.along_x(x, y), scale.along_y(x, y));
-  };
+  const LatticeGraph graph =
+      scaled(lattice_graph(features, field, scale, positions), scale_x, scale_y);
+  const Spacing spacing = spacing_of(scale, scale_x, scale_y);
   return mesh_inside(graph, outline, spacing, width, height, context);
 }
 

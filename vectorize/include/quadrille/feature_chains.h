@@ -44,4 +44,8 @@ struct ChainNetwork {
 ChainNetwork feature_chains(const Raster& picture, const ChainOptions& options = {},
                             const RunContext& context = {});
 
+/// Leaves out the chains with the least contrast until, with a vertex at every `spacing` along them
+/// and one at each end, there are at most `vertices`.
+void shed_weak_chains(ChainNetwork& network, double spacing, double vertices);
+
 }  // namespace quadrille

@@ -17,9 +17,10 @@ struct SnapOptions {
 /// the split that costs least when the pixels on one side take c and those on the other d (the
 /// two-phase model of Chan and Vese, Active contours without edges, 2001) is where it belongs. Each
 /// vertex takes the least-squares step toward the splits of its edges, weighted by their contrast.
-/// Connectivity stays; border vertices slide along straight axis-parallel borders and stay where
-/// the border bends or runs obliquely. The mesh lies within the picture; source pixels. The same
-/// bits for any thread count. Throws Error{invalid_argument} for options outside their ranges.
+/// Connectivity stays, and so do the vertices of feature edges; border vertices slide along
+/// straight axis-parallel borders and stay where the border bends or runs obliquely. The mesh lies
+/// within the picture; source pixels. The same bits for any thread count. Throws
+/// Error{invalid_argument} for options outside their ranges.
 void snap_to_features(QuadMesh& mesh, const Raster& picture, const SnapOptions& options = {},
                       const RunContext& context = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "quadrille/feature_chains.h"
 #include "quadrille/planar_loops.h"
 #include "quadrille/position_field.h"
 #include "quadrille/quad_mesh.h"
@@ -11,10 +12,12 @@ namespace quadrille {
 /// constrained Delaunay triangulation is merged into convex faces, chains of faces are re-divided
 /// to be more regular, every face is divided once (an n-gon into n quads), and badly shaped quads
 /// are smoothed. The faces tile the rectangle and keep their orientation whatever the fields are;
-/// see validate().
+/// see validate(). Chains are constraints of the triangulation: the mesh's edges follow them and
+/// carry kFeatureEdge, but for pieces that come within a pixel or two of a stronger chain's.
 QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
-                       const ScaleField& scale, const PositionField& positions, double width,
-                       double height, const RunContext& context = {});
+                       const ScaleField& scale, const PositionField& positions,
+                       const ChainNetwork& chains, double width, double height,
+                       const RunContext& context = {});
 
 /// Pure quad mesh of the area inside an outline such as alpha_outline() gives: the loops,
 /// simplified to edges of about the lattice's length with their corners kept, are constraints of

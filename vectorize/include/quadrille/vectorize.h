@@ -4,6 +4,7 @@
 
 #include "quadrille/alpha_outline.h"
 #include "quadrille/cross_field.h"
+#include "quadrille/feature_chains.h"
 #include "quadrille/feature_snapping.h"
 #include "quadrille/fit.h"
 #include "quadrille/position_field.h"
@@ -38,6 +39,9 @@ struct VectorizeOptions {
   CrossFieldOptions cross_field;
   ScaleOptions scale;
   PositionOptions position;
+  ChainOptions chains;
+  /// The most vertices on chains, as a share of the mesh's; the weakest chains are left out.
+  double chain_share = 0.5;
   SnapOptions snap;
   FitOptions fit;
   /// Use the plain axis-aligned lattice instead of the fields.
@@ -51,7 +55,8 @@ struct Quadrangulation {
   CrossField cross;
   ScaleField scale;
   PositionField position;
-  QuadMesh mesh;  ///< source pixels
+  ChainNetwork chains;  ///< that the mesh's feature edges follow, source pixels
+  QuadMesh mesh;        ///< source pixels
   /// The axis-aligned lattice took the place of the fields' mesh, because the picture is smaller
   /// than 4 quads a side, because the quads of an opaque region are smaller than a source pixel,
   /// or, for an outline with strands that nearly touch, because no mesh of the fields was valid.
