@@ -24,8 +24,9 @@ struct Slope {
   Eigen::Array4d color;
 };
 
-/// Inside a torn vertex the two sides differ only some way into the wedge.
-constexpr double kTornInset = 0.75;
+/// A tear is seen through the pixels' box and the tent of bilinear sampling, together up to 2.1
+/// pixels wide to either side; beyond, a sample has the colour of its own side.
+constexpr double kTornInset = 2;
 
 class BesselColors {
  public:
@@ -65,6 +66,8 @@ class BesselColors {
  private:
   int vertex_of(int w) const { return patches_.mesh.origin(corners_[w].front()); }
 
+  /// The vertex, or for a torn one a point toward the middle of the wedge's quads that keeps its
+  /// distance from the tears.
   Eigen::Vector2d sample_point(int w) const {
     const QuadMesh& mesh = patches_.mesh;
     const int v = vertex_of(w);
@@ -78,7 +81,18 @@ class BesselColors {
     inward /= static_cast<double>(corners_[w].size());
     const double length = inward.norm();
     if (!(length > 0)) return p;
-    return p + inward * std::min(0.5, kTornInset / length);
+    double distance = length;  // of the middle from the lines of the tears
+    const auto keep_off = [&](int h, int other) {
+      if (!mesh.is_tear(mesh.edge(h))) return;
+      const Eigen::Vector2d along = (mesh.vertices[other] - p).normalized();
+      if (along.dot(inward) < 0) return;
+      distance = std::min(distance, std::abs(along.x() * inward.y() - along.y() * inward.x()));
+    };
+    for (const int h : corners_[w]) {
+      keep_off(h, mesh.tip(h));
+      keep_off(QuadMesh::prev(h), mesh.origin(QuadMesh::prev(h)));
+    }
+    return p + inward * std::min(1.0, kTornInset / std::max(distance, 1e-300));
   }
 
   /// Calls visit(end, neighbour) for both sides of every corner of the wedge: the edge end at the

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fit_element.h"
+#include "mixed_pixels.h"
 #include "quadrille/patch_mesh.h"
 #include "quadrille/raster.h"
 #include "quadrille/run_context.h"
@@ -11,7 +12,8 @@
 namespace quadrille {
 
 /// The normal equations of fitting a correction to the colours that a PatchMesh has: unknowns per
-/// wedge, one equation per pixel centre, element by element. It runs in the caller's tbb arena.
+/// wedge, one equation per pixel: at its centre element by element, or a mixture near tears. It
+/// runs in the caller's tbb arena.
 class ColorSystem {
  public:
   using Vector = std::vector<WedgeUnknowns>;
@@ -37,6 +39,7 @@ class ColorSystem {
 
   std::vector<int> wedge_of_corner_;
   WedgeCorners wedge_corners_;
+  MixedPixels mixed_;
   std::vector<PatchElement> elements_;
   std::vector<CornerUnknowns> scratch_;  // per patch
   std::vector<Eigen::Matrix4f> inverse_blocks_;
