@@ -96,13 +96,13 @@ WedgeUnknowns unknowns_of(const Wedge& w) {
 
 ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, double regularization,
                          const RunContext& context)
-    : right_hand_side(patches.wedges.size()),
-      wedge_of_corner_(patches.wedge_of_corner),
+    : wedge_of_corner_(patches.wedge_of_corner),
       wedge_corners_(patches),
       mixed_(patches, picture),
       elements_(patches.patch_count()),
       scratch_(patches.patch_count()),
       inverse_blocks_(patches.wedges.size()) {
+  right_hand_side.resize(patches.wedges.size());
   assemble(patches, picture, regularization, context);
   mixed_.evaluate_residual();
   for_each_range(wedge_count(), [&](int begin, int end) {
