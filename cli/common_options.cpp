@@ -29,7 +29,9 @@ void declare_run_options(CLI::App& parser, RunOptions& options) {
 VectorizeOptions MeshOptions::vectorize_options() const {
   VectorizeOptions options;
   options.quads = quads;
-  options.fit.method = fit == "bessel" ? FitMethod::bessel : FitMethod::hermite;
+  options.fit.method = fit == "bessel"      ? FitMethod::bessel
+                       : fit == "bessel-ls" ? FitMethod::bessel_ls
+                                            : FitMethod::hermite;
   options.lattice = lattice;
   options.region = mesh == "opaque" ? MeshRegion::opaque : MeshRegion::whole;
   options.cross_field.alignment = alignment;
@@ -74,9 +76,10 @@ void declare_mesh_options(CLI::App& parser, MeshOptions& options) {
   declare_quad_options(parser, options);
   parser
       .add_option("--fit", options.fit,
-                  "how colours are found: hermite (least squares over all pixels) or bessel "
-                  "(sampled at the vertices, as in the paper)")
-      ->check(CLI::IsMember({"bessel", "hermite"}))
+                  "how colours are found: hermite (values and slopes by least squares over all "
+                  "pixels), bessel-ls (values only) or bessel (sampled at the vertices, as in the "
+                  "paper)")
+      ->check(CLI::IsMember({"bessel", "bessel-ls", "hermite"}))
       ->capture_default_str();
 }
 

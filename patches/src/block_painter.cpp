@@ -37,7 +37,7 @@ std::span<const Color> BlockPainter::paint(const std::vector<LayerScene>& scenes
 }
 
 void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> patches) {
-  outline_.find(scene, patches, window_);
+  outline_.find(scene.scan(), patches, window_);
   // Backwards, so that of patches that overlap the lowest one is seen.
   for (auto q = patches.rbegin(); q != patches.rend(); ++q) {
     const SampleWindow bounds = intersection(scene.scan().bounds(*q), window_);
@@ -50,7 +50,7 @@ void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> pat
     layer_[(p.y - window_.y_begin) * width() + (p.x - window_.x_begin)].setZero();
   }
   for (const int q : patches) {
-    outline_.take(scene, q, shares_);
+    outline_.take(scene.scan(), q, shares_);
     if (shares_.empty()) continue;
     PatchShader shader(scene.patches(), q, scene.to_samples(), scene.from_samples());
     paint_outline(shader);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace quadrille {
 namespace {
@@ -57,11 +58,24 @@ bool are_neighbours(std::size_t i, std::size_t j, std::size_t n, bool closed) {
   return j - i == 1 || (closed && i == 0 && j + 1 == n);
 }
 
-/// Pairs ends, the straightest pair first; earlier ends win ties. The two sides of a quad's corner
-/// are no pair: a common tangent would fold the corner. Nor is a border edge with one inside, which
-/// would bend the border.
+/// What may pair with what: ends of a chain of tears continue each other, then ends of features,
+/// then a tear goes on as a feature; other edges keep to themselves.
+enum class EndKind { plain, feature, tear };
+
+EndKind kind_of(const QuadMesh& mesh, int end) {
+  const std::uint8_t flags = mesh.edge_flags[end >> 1];
+  return flags & kTearEdge      ? EndKind::tear
+         : flags & kFeatureEdge ? EndKind::feature
+                                : EndKind::plain;
+}
+
+/// Pairs the ends inside for which may_pair(a, b) holds and that have no partner yet, the
+/// straightest pair first; earlier ends win ties. The two sides of a quad's corner are no pair: a
+/// common tangent would fold the corner. Nor is a border edge with one inside, which would bend the
+/// border.
+template <class MayPair>
 void pair_straightest(const QuadMesh& mesh, const std::vector<int>& ends, bool closed,
-                      std::vector<int>& opposite) {
+                      std::vector<int>& opposite, const MayPair& may_pair) {
   const std::size_t first_inside = closed ? 0 : 1;
   const std::size_t end_inside = closed ? ends.size() : ends.size() - 1;
   while (true) {
@@ -71,6 +85,7 @@ void pair_straightest(const QuadMesh& mesh, const std::vector<int>& ends, bool c
       for (std::size_t j = i + 1; j < end_inside; ++j) {
         if (opposite[ends[i]] >= 0 || opposite[ends[j]] >= 0) continue;
         if (are_neighbours(i, j, ends.size(), closed)) continue;
+        if (!may_pair(ends[i], ends[j])) continue;
         const double s = straightness(mesh, ends[i], ends[j]);
         if (s > best) best = s, first = i, second = j;
       }
@@ -81,6 +96,22 @@ void pair_straightest(const QuadMesh& mesh, const std::vector<int>& ends, bool c
   }
 }
 
+/// Pairs the ends of contours at a vertex.
+void pair_contours(const QuadMesh& mesh, const std::vector<int>& ends, bool closed,
+                   std::vector<int>& opposite) {
+  const auto both = [&](EndKind kind) {
+    return [&mesh, kind](int a, int b) {
+      return kind_of(mesh, a) == kind && kind_of(mesh, b) == kind;
+    };
+  };
+  const auto mixed = [&](int a, int b) {
+    return kind_of(mesh, a) != EndKind::plain && kind_of(mesh, b) != EndKind::plain;
+  };
+  pair_straightest(mesh, ends, closed, opposite, both(EndKind::tear));
+  pair_straightest(mesh, ends, closed, opposite, both(EndKind::feature));
+  pair_straightest(mesh, ends, closed, opposite, mixed);
+}
+
 }  // namespace
 
 std::vector<int> opposite_ends(const QuadMesh& mesh) {
@@ -89,15 +120,21 @@ std::vector<int> opposite_ends(const QuadMesh& mesh) {
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     collect_ends(mesh, v, ends);
     const bool closed = !mesh.is_border_vertex(v);
+    const auto is_plain = [&](int end) { return kind_of(mesh, end) == EndKind::plain; };
+    pair_contours(mesh, ends, closed, opposite);
     if (closed && ends.size() == 4) {
-      for (int i = 0; i < 4; ++i) opposite[ends[i]] = ends[(i + 2) & 3];
+      for (int i = 0; i < 4; ++i) {
+        const int other = ends[(i + 2) & 3];
+        if (is_plain(ends[i]) && is_plain(other)) opposite[ends[i]] = other;
+      }
       continue;
     }
     if (!closed && ends.size() >= 3 && is_one_border_curve(mesh, ends.front(), ends.back())) {
       opposite[ends.front()] = ends.back();
       opposite[ends.back()] = ends.front();
     }
-    pair_straightest(mesh, ends, closed, opposite);
+    pair_straightest(mesh, ends, closed, opposite,
+                     [&](int a, int b) { return is_plain(a) && is_plain(b); });
   }
   return opposite;
 }

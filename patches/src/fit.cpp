@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fit_bessel.h"
+#include "fit_bessel_system.h"
 #include "fit_solver.h"
 #include "fit_system.h"
 #include "parallel_ranges.h"
@@ -38,7 +39,15 @@ FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
                                    const FitOptions& options, const RunContext& context) {
   ColorSystem system(patches, picture, options.regularization, context);
   FitReport report;
-  const ColorSystem::Vector correction = solve(system, options, context, report);
+  NormalEquations::Vector correction;
+  if (options.method == FitMethod::bessel_ls) {
+    BesselSystem restricted(system, patches);
+    const auto samples = solve(restricted, options, context, report);
+    correction.resize(samples.size());
+    restricted.wedges_of(samples, correction);
+  } else {
+    correction = solve(system, options, context, report);
+  }
   for_each_range(static_cast<int>(correction.size()), [&](int begin, int end) {
     for (int w = begin; w < end; ++w) {
       Wedge& wedge = patches.wedges[w];
@@ -61,7 +70,7 @@ FitReport fit_colors(PatchMesh& patches, const Raster& picture, const FitOptions
   arena.execute([&] {
     patches.opaque = !picture.has_alpha();
     patches.wedges = bessel_wedges(patches, picture);
-    if (options.method == FitMethod::hermite) {
+    if (options.method != FitMethod::bessel) {
       report = correct_by_least_squares(patches, picture, options, context);
     }
   });

@@ -7,7 +7,7 @@
 namespace quadrille {
 namespace {
 
-using Vector = ColorSystem::Vector;
+using Vector = NormalEquations::Vector;
 
 Eigen::Array4d dot(const WedgeUnknowns& a, const WedgeUnknowns& b) {
   return a.cwiseProduct(b).rowwise().sum().array().cast<double>();
@@ -20,8 +20,8 @@ Eigen::Array4d ratio(const Eigen::Array4d& a, const Eigen::Array4d& b) {
 
 }  // namespace
 
-ColorSystem::Vector solve(ColorSystem& system, const FitOptions& options, const RunContext& context,
-                          FitReport& report) {
+NormalEquations::Vector solve(NormalEquations& system, const FitOptions& options,
+                              const RunContext& context, FitReport& report) {
   const int n = system.wedge_count();
   const WedgeUnknowns zero = WedgeUnknowns::Zero();
   Vector solution(n, zero), direction(n), product(n);

@@ -96,17 +96,20 @@ WedgeUnknowns unknowns_of(const Wedge& w) {
 
 ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, double regularization,
                          const RunContext& context)
-    : right_hand_side(patches.wedges.size()),
-      wedge_of_corner_(patches.wedge_of_corner),
+    : wedge_of_corner_(patches.wedge_of_corner),
       wedge_corners_(patches),
+      mixed_(patches, picture),
       elements_(patches.patch_count()),
       scratch_(patches.patch_count()),
       inverse_blocks_(patches.wedges.size()) {
+  right_hand_side.resize(patches.wedges.size());
   assemble(patches, picture, regularization, context);
+  mixed_.evaluate_residual();
   for_each_range(wedge_count(), [&](int begin, int end) {
     for (int w = begin; w < end; ++w) {
       right_hand_side[w].setZero();
       for (const int h : wedge_corners_[w]) right_hand_side[w] += scratch_[h >> 2][h & 3];
+      mixed_.gather(w, right_hand_side[w]);
     }
   });
   invert_blocks();
@@ -132,6 +135,7 @@ void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, doub
         const PatchInverse inverse(geometry);
         scan.scan(q, window, [&](int y, int x_begin, int x_end) {
           for (int x = x_begin; x < x_end; ++x) {
+            if (mixed_.contains(x, y)) continue;
             const Eigen::Vector2d uv = inverse({x + 0.5, y + 0.5});
             // The outline is scanned as a polyline, so the centre may lie a little outside the
             // curve; then the picture counts at the nearest point of the patch.
@@ -176,7 +180,7 @@ void ColorSystem::invert_blocks() {
   });
   for_each_range(wedge_count(), [&](int begin, int end) {
     for (int w = begin; w < end; ++w) {
-      Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
+      Eigen::Matrix4d block = mixed_.block(w);
       for (const int h : wedge_corners_[w]) block += scratch_[h >> 2][h & 3].cast<double>();
       // Unit diagonal first: the four unknowns differ by powers of the edge length.
       const Eigen::Vector4d scale = block.diagonal().cwiseSqrt().cwiseInverse();
@@ -197,11 +201,13 @@ Eigen::Array4d ColorSystem::multiply(const Vector& x, Vector& product) {
       scratch_[q] = quadrille::multiply(elements_[q], local);
     }
   });
+  mixed_.evaluate(x);
   return sum_over_ranges(wedge_count(), Eigen::Array4d(0, 0, 0, 0), [&](int begin, int end) {
     Eigen::Array4d sum = Eigen::Array4d::Zero();
     for (int w = begin; w < end; ++w) {
       product[w].setZero();
       for (const int h : wedge_corners_[w]) product[w] += scratch_[h >> 2][h & 3];
+      mixed_.gather(w, product[w]);
       sum += x[w].cwiseProduct(product[w]).rowwise().sum().array().cast<double>();
     }
     return sum;

@@ -43,10 +43,6 @@ std::vector<int> patches_in_window(const PatchMesh& patches, const Eigen::Affine
   return found;
 }
 
-int floor_block(int sample) {
-  return sample >= 0 ? sample / kBlockSide : -((kBlockSide - 1 - sample) / kBlockSide);
-}
-
 }  // namespace
 
 LayerScene::LayerScene(const Layer& layer, const std::array<double, 2>& scale,
@@ -56,40 +52,6 @@ LayerScene::LayerScene(const Layer& layer, const std::array<double, 2>& scale,
       from_samples_(to_samples_.inverse()),
       wanted_(patches_in_window(layer.patches, to_samples_, window)),
       scan_(layer.patches, to_samples_, wanted_),
-      blocks_{floor_block(window.x_begin), floor_block(window.y_begin),
-              floor_block(window.x_end - 1) + 1, floor_block(window.y_end - 1) + 1} {
-  const std::size_t columns = blocks_.x_end - blocks_.x_begin;
-  const std::size_t rows = blocks_.y_end - blocks_.y_begin;
-  const auto for_each_block = [&](const auto& visit) {
-    for (const int q : wanted_) {
-      const SampleWindow b = blocks_of(q);
-      for (int y = b.y_begin; y < b.y_end; ++y) {
-        for (int x = b.x_begin; x < b.x_end; ++x) {
-          visit(q, (y - blocks_.y_begin) * columns + (x - blocks_.x_begin));
-        }
-      }
-    }
-  };
-  bin_begin_.assign(columns * rows + 1, 0);
-  for_each_block([&](int, std::size_t block) { ++bin_begin_[block + 1]; });
-  for (std::size_t b = 0; b < columns * rows; ++b) bin_begin_[b + 1] += bin_begin_[b];
-  bins_.resize(bin_begin_.back());
-  std::vector<std::size_t> next(bin_begin_.begin(), bin_begin_.end() - 1);
-  for_each_block([&](int q, std::size_t block) { bins_[next[block]++] = q; });
-}
-
-SampleWindow LayerScene::blocks_of(int patch) const {
-  const SampleWindow s = scan_.touched(patch);
-  return intersection({floor_block(s.x_begin), floor_block(s.y_begin), floor_block(s.x_end) + 1,
-                       floor_block(s.y_end) + 1},
-                      blocks_);
-}
-
-std::span<const int> LayerScene::patches_at(const SampleWindow& part) const {
-  const std::size_t columns = blocks_.x_end - blocks_.x_begin;
-  const std::size_t block = (floor_block(part.y_begin) - blocks_.y_begin) * columns +
-                            (floor_block(part.x_begin) - blocks_.x_begin);
-  return {bins_.data() + bin_begin_[block], bins_.data() + bin_begin_[block + 1]};
-}
+      bins_(scan_, wanted_, window) {}
 
 }  // namespace quadrille

@@ -3,14 +3,11 @@
 #include <span>
 #include <vector>
 
+#include "patch_bins.h"
 #include "patch_scan.h"
 #include "quadrille/vector_image.h"
 
 namespace quadrille {
-
-/// Samples are worked on in square blocks of this side on an absolute grid, so that whatever is
-/// computed per block does not depend on the region drawn.
-constexpr int kBlockSide = 128;
 
 /// A layer prepared for scanning in a window of samples: its outlines there, and which patches each
 /// block sees. Takes one quick test of every patch and further work only for those in the window.
@@ -26,19 +23,14 @@ class LayerScene {
 
   /// The patches that touch samples' squares of the block that holds `part`, in ascending order.
   /// The part must lie within one block and within the scene's window.
-  std::span<const int> patches_at(const SampleWindow& part) const;
+  std::span<const int> patches_at(const SampleWindow& part) const { return bins_.at(part); }
 
  private:
   const Layer& layer_;
   Eigen::Affine2d to_samples_, from_samples_;
   std::vector<int> wanted_;
   PatchScan scan_;
-  SampleWindow blocks_;                 // of the window, in blocks
-  std::vector<std::size_t> bin_begin_;  // #blocks + 1
-  std::vector<int> bins_;
-
-  /// The blocks that the patch may touch, within the window.
-  SampleWindow blocks_of(int patch) const;
+  PatchBins bins_;
 };
 
 }  // namespace quadrille

@@ -25,18 +25,18 @@ std::uint16_t bit_range(int begin, int end) {
 
 }  // namespace
 
-void OutlinePixels::find(const LayerScene& scene, std::span<const int> patches,
+void OutlinePixels::find(const PatchScan& scan, std::span<const int> patches,
                          const SampleWindow& window) {
   window_ = window;
   pixels_.clear();
   const int height = window.y_end - window.y_begin;
   index_.assign(width() * height, -1);
-  const QuadMesh& mesh = scene.patches().mesh;
+  const QuadMesh& mesh = scan.patches().mesh;
   for (const int q : patches) {
     for (int k = 0; k < 4; ++k) {
       const int e = mesh.edge(4 * q + k);
       if (!mesh.is_border(e) && !mesh.is_tear(e)) continue;
-      const auto line = scene.scan().polyline(e);
+      const auto line = scan.polyline(e);
       for (std::size_t i = 1; i < line.size(); ++i) mark_segment(line[i - 1], line[i]);
     }
   }
@@ -85,12 +85,12 @@ bool OutlinePixels::reaches(const SampleWindow& bounds) const {
   return false;
 }
 
-void OutlinePixels::take(const LayerScene& scene, int patch, std::vector<Share>& shares) {
+void OutlinePixels::take(const PatchScan& scan, int patch, std::vector<Share>& shares) {
   shares.clear();
   if (pixels_.empty()) return;
-  const SampleWindow bounds = intersection(scene.scan().touched(patch), window_);
+  const SampleWindow bounds = intersection(scan.touched(patch), window_);
   if (bounds.empty() || !reaches(bounds)) return;
-  scene.scan().spans(patch, bounds, kDivisionBits, spans_);
+  scan.spans(patch, bounds, kDivisionBits, spans_);
   touched_.clear();
   for (const SampleSpan& s : spans_) {
     const int row = bounds.y_begin - window_.y_begin + (s.y >> kDivisionBits);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "layer_scene.h"
+#include "patch_scan.h"
 
 namespace quadrille {
 
@@ -29,13 +31,13 @@ class OutlinePixels {
   };
 
   /// Finds the crossed samples of the window, which must not be larger than a block.
-  void find(const LayerScene& scene, std::span<const int> patches, const SampleWindow& window);
+  void find(const PatchScan& scan, std::span<const int> patches, const SampleWindow& window);
 
   const std::vector<Pixel>& pixels() const { return pixels_; }
 
   /// Takes what the patch covers of the free sub-samples of all pixels; call in ascending order of
   /// patches. The list replaces `shares`.
-  void take(const LayerScene& scene, int patch, std::vector<Share>& shares);
+  void take(const PatchScan& scan, int patch, std::vector<Share>& shares);
 
  private:
   struct Sum {

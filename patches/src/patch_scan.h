@@ -48,6 +48,8 @@ class PatchScan {
   PatchScan(const PatchMesh& patches, const Eigen::Affine2d& to_samples,
             std::span<const int> wanted);
 
+  const PatchMesh& patches() const { return patches_; }
+
   /// Smallest window of samples that the patch's outline may cover (not clipped to anything).
   SampleWindow bounds(int patch) const;
   /// Smallest window of samples whose squares [i, i + 1] x [j, j + 1] the outline may touch.

@@ -7,8 +7,10 @@
 namespace quadrille {
 
 enum class FitMethod {
-  bessel,   ///< the paper, section 4.1: colour sampled at the vertex, Bessel derivatives, no twist
-  hermite,  ///< value, gradient and twist per wedge by least squares over all pixels
+  bessel,  ///< the paper, section 4.1: colour sampled at the vertex, Bessel derivatives, no twist
+  bessel_ls,  ///< one colour per wedge by least squares over all pixels, Bessel derivatives, no
+              ///< twist
+  hermite,    ///< value, gradient and twist per wedge by least squares over all pixels
 };
 
 struct FitOptions {
@@ -28,12 +30,13 @@ struct FitReport {
   double residual = 0;  ///< relative, at the end
 };
 
-/// Estimates the colours of every wedge so that the patches reproduce the picture: hermite
-/// minimises the squared difference at the pixel centres, alpha premultiplied, clamping left to the
-/// renderer. Geometry is taken as it is. The picture's rectangle must contain the mesh; pixel
-/// (i, j) is compared at (i + 0.5, j + 0.5), and where the border of the mesh lies inside the
+/// Estimates the colours of every wedge so that the patches reproduce the picture: hermite and
+/// bessel_ls minimise the squared difference at the pixel centres, alpha premultiplied, clamping
+/// left to the renderer. A pixel that a tear crosses is compared as the mixture of patches that
+/// render() draws there. Geometry is taken as it is. The picture's rectangle must contain the mesh;
+/// pixel (i, j) is compared at (i + 0.5, j + 0.5), and where the border of the mesh lies inside the
 /// picture, places a pixel apart along it are compared too. A picture without alpha gives opaque
-/// patches: alpha exactly 1, its derivatives exactly 0. Linear pictures are reproduced by both
+/// patches: alpha exactly 1, its derivatives exactly 0. Linear pictures are reproduced by all
 /// methods. The same bits for any thread count. Throws Error{invalid_argument} for a mesh without
 /// patches, an empty picture or options outside their ranges.
 FitReport fit_colors(PatchMesh& patches, const Raster& picture, const FitOptions& options = {},

@@ -9,9 +9,12 @@ namespace quadrille {
 /// of the parabola through the three points, scaled by each edge's chord length, so curves are G1.
 /// "Opposite" pairs the edges of a valence-4 interior vertex across each other, the two border
 /// edges of a border vertex of valence 3 or more when they deviate from a straight line by less
-/// than 45 degrees and neither continues an exactly straight piece of the border, and of the edges
-/// inside the pairs that deviate least, below 45 degrees, but never two sides of one quad; unpaired
-/// ends take the parabola's end derivative toward the other end of the edge. Straight pieces of the
+/// than 45 degrees and neither continues an exactly straight piece of the border, and of the other
+/// edges inside the pairs that deviate least, below 45 degrees, but never two sides of one quad;
+/// unpaired ends take the parabola's end derivative toward the other end of the edge. Contours go
+/// first: at a vertex of any valence tear edges pair with tear edges only, or else feature edges
+/// with feature edges, or else a tear with a feature, always the least deviation first and below 45
+/// degrees. So a chain of tears runs on smoothly, and keeps its corners. Straight pieces of the
 /// border stay straight.
 void set_bessel_tangents(PatchMesh& patches);
 

@@ -1,0 +1,175 @@
+#include "mixed_pixels.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "outline_pixels.h"
+#include "parallel_ranges.h"
+#include "patch_bins.h"
+#include "picture_sampling.h"
+
+namespace quadrille {
+namespace {
+
+bool has_tears(const QuadMesh& mesh) {
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.is_tear(e) && !mesh.is_border(e)) return true;
+  }
+  return false;
+}
+
+/// The factors by which the unknowns at the four corners enter the patch's colour at uv.
+std::array<Eigen::Vector4f, 4> corner_factors(const std::array<CornerMap, 4>& corners,
+                                              const Eigen::Vector2d& uv) {
+  const auto bernstein = [](double t) {
+    const double s = 1 - t;
+    return std::array{s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+  };
+  const auto u = bernstein(uv.x()), v = bernstein(uv.y());
+  BicubicBezier<Color> weights;
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      weights.control[j][i] = Color::Constant(static_cast<float>(u[i] * v[j]));
+    }
+  }
+  const CornerUnknowns all = transpose_of(corners, weights);
+  std::array<Eigen::Vector4f, 4> factors;
+  for (int k = 0; k < 4; ++k) factors[k] = all[k].row(0).transpose();
+  return factors;
+}
+
+}  // namespace
+
+/// The rows of the pixels of one block.
+struct MixedPixels::BlockRows {
+  struct Row {
+    int x, y;
+    float covered = 0;
+    std::vector<Entry> entries;
+  };
+  std::vector<Row> rows;
+
+  void find(const PatchScan& scan, std::span<const int> seen, const SampleWindow& window) {
+    const PatchMesh& patches = scan.patches();
+    OutlinePixels outline;
+    outline.find(scan, seen, window);
+    for (const OutlinePixels::Pixel& p : outline.pixels()) rows.push_back({p.x, p.y, 0, {}});
+    if (rows.empty()) return;
+    std::vector<OutlinePixels::Share> shares;
+    for (const int q : seen) {
+      outline.take(scan, q, shares);
+      if (shares.empty()) continue;
+      const std::array<CornerMap, 4> corners = corner_maps(patches, q);
+      const PatchInverse inverse(patch_geometry(patches, q));
+      for (const OutlinePixels::Share& share : shares) {
+        Row& row = rows[share.pixel];
+        const auto factors = corner_factors(corners, inverse({row.x + share.x, row.y + share.y}));
+        row.covered += share.weight;
+        for (int k = 0; k < 4; ++k) {
+          add(row, patches.wedge_of_corner[4 * q + k], factors[k] * share.weight);
+        }
+      }
+    }
+    std::erase_if(rows, [](const Row& row) { return row.entries.empty(); });
+    for (Row& row : rows) {
+      std::sort(row.entries.begin(), row.entries.end(),
+                [](const Entry& a, const Entry& b) { return a.wedge < b.wedge; });
+    }
+  }
+
+ private:
+  static void add(Row& row, int wedge, const Eigen::Vector4f& factors) {
+    for (Entry& e : row.entries) {
+      if (e.wedge != wedge) continue;
+      e.factors += factors;
+      return;
+    }
+    row.entries.push_back({wedge, factors});
+  }
+};
+
+MixedPixels::MixedPixels(const PatchMesh& patches, const Raster& picture) : width_(picture.width) {
+  if (!has_tears(patches.mesh)) return;
+  const SampleWindow whole = {0, 0, picture.width, picture.height};
+  const PatchScan scan(patches, SampleGrid{});
+  std::vector<int> all(patches.patch_count());
+  std::iota(all.begin(), all.end(), 0);
+  const PatchBins bins(scan, all, whole);
+  const int columns = (picture.width + kBlockSide - 1) / kBlockSide;
+  const int lines = (picture.height + kBlockSide - 1) / kBlockSide;
+  std::vector<BlockRows> blocks(static_cast<std::size_t>(columns) * lines);
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+    const int x = static_cast<int>(b % columns) * kBlockSide;
+    const int y = static_cast<int>(b / columns) * kBlockSide;
+    const SampleWindow block = intersection({x, y, x + kBlockSide, y + kBlockSide}, whole);
+    blocks[b].find(scan, bins.at(block), block);
+  });
+
+  is_mixed_.assign(static_cast<std::size_t>(picture.width) * picture.height, 0);
+  row_begin_.push_back(0);
+  for (const BlockRows& block : blocks) {
+    for (const BlockRows::Row& row : block.rows) {
+      is_mixed_[static_cast<std::size_t>(row.y) * width_ + row.x] = 1;
+      Eigen::Array4d rest = premultiplied_pixel(picture, row.x, row.y).cast<double>() * row.covered;
+      for (const Entry& e : row.entries) {
+        const Wedge& w = patches.wedges[e.wedge];
+        rest -= (w.value * e.factors[0] + w.dx * e.factors[1] + w.dy * e.factors[2] +
+                 w.twist * e.factors[3])
+                    .cast<double>();
+      }
+      if (!picture.has_alpha()) rest.w() = 0;
+      residual_.push_back(rest.matrix().cast<float>());
+      entries_.insert(entries_.end(), row.entries.begin(), row.entries.end());
+      row_begin_.push_back(static_cast<int>(entries_.size()));
+    }
+  }
+  values_.resize(residual_.size());
+  sort_by_wedge(patches.wedges.size());
+}
+
+void MixedPixels::sort_by_wedge(std::size_t wedge_count) {
+  wedge_begin_.assign(wedge_count + 1, 0);
+  for (const Entry& e : entries_) ++wedge_begin_[e.wedge + 1];
+  std::partial_sum(wedge_begin_.begin(), wedge_begin_.end(), wedge_begin_.begin());
+  wedge_entries_.resize(entries_.size());
+  std::vector<int> next(wedge_begin_.begin(), wedge_begin_.end() - 1);
+  for (std::size_t r = 0; r + 1 < row_begin_.size(); ++r) {
+    for (int i = row_begin_[r]; i < row_begin_[r + 1]; ++i) {
+      wedge_entries_[next[entries_[i].wedge]++] = {static_cast<int>(r), i};
+    }
+  }
+}
+
+void MixedPixels::evaluate_residual() { values_ = residual_; }
+
+void MixedPixels::evaluate(const Vector& x) {
+  for_each_range(static_cast<int>(values_.size()), [&](int begin, int end) {
+    for (int r = begin; r < end; ++r) {
+      Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+      for (int i = row_begin_[r]; i < row_begin_[r + 1]; ++i) {
+        sum += x[entries_[i].wedge] * entries_[i].factors;
+      }
+      values_[r] = sum;
+    }
+  });
+}
+
+void MixedPixels::gather(int wedge, WedgeUnknowns& sum) const {
+  if (empty()) return;
+  for (int i = wedge_begin_[wedge]; i < wedge_begin_[wedge + 1]; ++i) {
+    const auto [row, entry] = wedge_entries_[i];
+    sum += values_[row] * entries_[entry].factors.transpose();
+  }
+}
+
+Eigen::Matrix4d MixedPixels::block(int wedge) const {
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  if (empty()) return sum;
+  for (int i = wedge_begin_[wedge]; i < wedge_begin_[wedge + 1]; ++i) {
+    const Eigen::Vector4d f = entries_[wedge_entries_[i][1]].factors.cast<double>();
+    sum += f * f.transpose();
+  }
+  return sum;
+}
+
+}  // namespace quadrille
