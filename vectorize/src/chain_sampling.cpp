@@ -17,15 +17,15 @@ constexpr double kClearance = 0.25;  // of other lattice points from the chain, 
 constexpr double kClosest = 0.5;     // least distance between samples along the chain, in spacings
 // A piece is divided where the curve leaves the parabola through its ends and its middle by more
 // than this many pixels or spacings,
-constexpr double kTolerance = 0.15, kCoarseTolerance = 0.015;
+constexpr double kTolerance = 0.25, kCoarseTolerance = 0.02;
 // or turns by more than this share of its length away from its chord, but not below this length.
 constexpr double kMostBulge = 0.2;
-constexpr double kShortest = 2, kCoarseShortest = 0.2;
+constexpr double kShortest = 3, kCoarseShortest = 0.35;
 
 /// The samples of one chain, by arc length, without its ends.
 class ChainSampler {
  public:
-  ChainSampler(const FeatureChain& chain, const Spacing& spacing)
+  ChainSampler(const FeatureChain& chain, const DirectedSpacing& spacing)
       : curve_(chain.points), spacing_(spacing), places_{0.0, curve_.length()} {}
 
   const ChainCurve& curve() const { return curve_; }
@@ -51,7 +51,8 @@ class ChainSampler {
       constexpr int kSteps = 16;
       double edges = 0;
       for (int k = 0; k < kSteps; ++k) {
-        edges += whole / kSteps / spacing_(curve_.at(from + whole * (k + 0.5) / kSteps));
+        edges += whole / kSteps /
+                 spacing_between(from + whole * k / kSteps, from + whole * (k + 1) / kSteps);
       }
       const int parts = std::max(1, static_cast<int>(std::lround(std::min(edges, 1e6))));
       for (int k = 0; k < parts; ++k) {
@@ -64,8 +65,12 @@ class ChainSampler {
 
  private:
   ChainCurve curve_;
-  const Spacing& spacing_;
+  const DirectedSpacing& spacing_;
   std::vector<double> places_;
+
+  double spacing_between(double from, double to) const {
+    return spacing_(curve_.at(0.5 * (from + to)), curve_.direction(from, to));
+  }
 
   /// Appends the places after `from` up to `to`.
   void refine(double from, double to, std::vector<double>& all) const {
@@ -79,7 +84,7 @@ class ChainSampler {
 
   bool fits(double from, double to) const {
     const double arc = to - from;
-    const double spacing = spacing_(curve_.at(0.5 * (from + to)));
+    const double spacing = spacing_between(from, to);
     if (arc < std::max(kShortest, kCoarseShortest * spacing)) return true;
     const Vector2d a = curve_.at(from), b = curve_.at(to);
     const Vector2d chord = b - a, bulge = curve_.at(0.5 * (from + to)) - 0.5 * (a + b);
@@ -125,8 +130,42 @@ Vector2d ChainCurve::at(double s) const {
   return points_[i] + t * (points_[i + 1] - points_[i]);
 }
 
+Vector2d ChainCurve::direction(double from, double to) const {
+  const Vector2d chord = at(to) - at(from);
+  const double length = chord.norm();
+  return length > 0 ? Vector2d(chord / length) : Vector2d(1, 0);
+}
+
+bool ChainSamples::is_ear(int a, int b) const {
+  constexpr int kSteps = 3;
+  std::vector<int> reached = {a};
+  std::size_t begin = 0;
+  for (int step = 0; step < kSteps; ++step) {
+    const std::size_t end = reached.size();
+    for (; begin < end; ++begin) {
+      for (const int n : neighbours[reached[begin]]) {
+        if (n == b) return true;
+        reached.push_back(n);
+      }
+    }
+  }
+  return false;
+}
+
+DirectedSpacing directed_spacing(const CrossField& field, const ScaleField& scale, double scale_x,
+                                 double scale_y) {
+  return [&field, &scale, scale_x, scale_y](const Vector2d& p, const Vector2d& direction) {
+    const int x = std::clamp(static_cast<int>(p.x() / scale_x), 0, field.z.width - 1);
+    const int y = std::clamp(static_cast<int>(p.y() / scale_y), 0, field.z.height - 1);
+    const double turn = std::atan2(direction.y(), direction.x()) - field.angle(x, y);
+    const double along = std::cos(turn) / scale.along_x(x, y);
+    const double across = std::sin(turn) / scale.along_y(x, y);
+    return std::sqrt(scale_x * scale_y) / std::hypot(along, across);
+  };
+}
+
 ChainSamples sample_chains(const ChainNetwork& network, const LatticeGraph& graph,
-                           const Spacing& spacing, double width, double height) {
+                           const DirectedSpacing& spacing, double width, double height) {
   std::vector<ChainSampler> samplers;
   for (const FeatureChain& chain : network.chains) samplers.emplace_back(chain, spacing);
 
@@ -178,6 +217,11 @@ ChainSamples sample_chains(const ChainNetwork& network, const LatticeGraph& grap
       samples.pieces.push_back({c, places[i - 1], places[i], a, b});
       a = b;
     }
+  }
+  samples.neighbours.resize(samples.points.size());
+  for (const ChainSamples::Piece& piece : samples.pieces) {
+    samples.neighbours[piece.a].push_back(piece.b);
+    samples.neighbours[piece.b].push_back(piece.a);
   }
   for (const Key& key : keys) {
     samples.sample_of_lattice_point.push_back(key.chain < 0 ? key.chain

@@ -1,13 +1,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
-#include "contour.h"
 #include "lattice_graph.h"
 #include "quadrille/feature_chains.h"
 
 namespace quadrille {
+
+/// The wished length at a place of mesh edges in the direction of a unit vector, source pixels.
+using DirectedSpacing = std::function<double(const Eigen::Vector2d&, const Eigen::Vector2d&)>;
+
+/// The radius of the ellipse whose half axes are the cross's arms in that direction. The fields
+/// must outlive the result; `scale_x` and `scale_y` are the sizes of a working pixel.
+DirectedSpacing directed_spacing(const CrossField& field, const ScaleField& scale, double scale_x,
+                                 double scale_y);
 
 /// A curve between two nodes of a chain network, by arc length.
 class ChainCurve {
@@ -15,6 +23,8 @@ class ChainCurve {
   explicit ChainCurve(const std::vector<Eigen::Vector2d>& points);
   double length() const { return arc_.back(); }
   Eigen::Vector2d at(double s) const;
+  /// Unit direction of the chord between two places.
+  Eigen::Vector2d direction(double from, double to) const;
 
  private:
   const std::vector<Eigen::Vector2d>& points_;
@@ -33,6 +43,11 @@ struct ChainSamples {
   /// Per lattice point the sample that takes its place, -1 when no chain is near, -2 when it is too
   /// near to a chain but not to a sample.
   std::vector<int> sample_of_lattice_point;
+  std::vector<std::vector<int>> neighbours;  ///< of each point along the chains
+
+  /// True when chains lead from one point to another in at most three steps, so that an edge
+  /// between them could cut off a face without inner vertices, flat where the chain is smooth.
+  bool is_ear(int a, int b) const;
 };
 inline constexpr int kNoSample = -1, kInTheWay = -2;
 
@@ -40,6 +55,6 @@ inline constexpr int kNoSample = -1, kInTheWay = -2;
 /// than half a spacing, then whatever is needed for edges of about the spacing that follow the
 /// chains. `graph` is in source pixels.
 ChainSamples sample_chains(const ChainNetwork& network, const LatticeGraph& graph,
-                           const Spacing& spacing, double width, double height);
+                           const DirectedSpacing& spacing, double width, double height);
 
 }  // namespace quadrille

@@ -25,14 +25,6 @@ bool is_marked(const std::vector<double>& marks, const Contour& contour, double 
 
 }  // namespace
 
-Spacing spacing_of(const ScaleField& scale, double scale_x, double scale_y) {
-  return [&scale, scale_x, scale_y](const Vector2d& p) {
-    const int x = std::clamp(static_cast<int>(p.x() / scale_x), 0, scale.along_x.width - 1);
-    const int y = std::clamp(static_cast<int>(p.y() / scale_y), 0, scale.along_x.height - 1);
-    return std::sqrt(scale_x * scale_y) * std::min(scale.along_x(x, y), scale.along_y(x, y));
-  };
-}
-
 Contour::Contour(Loop points) : points_(std::move(points)) {
   double s = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {

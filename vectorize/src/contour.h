@@ -5,16 +5,11 @@
 
 #include "curve_index.h"
 #include "quadrille/planar_loops.h"
-#include "quadrille/scale_field.h"
 
 namespace quadrille {
 
 /// The wished length of mesh edges at a place, source pixels.
 using Spacing = std::function<double(const Eigen::Vector2d&)>;
-
-/// The shorter length of a scale field, which must outlive the result; `scale_x` and `scale_y` are
-/// the sizes of a working pixel.
-Spacing spacing_of(const ScaleField& scale, double scale_x, double scale_y);
 
 /// A closed polygon by arc length s, which counts modulo the length.
 class Contour {

@@ -78,8 +78,8 @@ class FaceMesh {
   /// By how much an edit would change it.
   int irregularity_change(const FaceEdit& edit) const;
   /// Fills in the faces that the merges of an edit remove and add. The vertex with the stricter
-  /// guide is kept. False when the two may not become one: both fixed, on different lines, both ends
-  /// of kept edges, or one on the border and the other held elsewhere.
+  /// guide is kept. False when the two may not become one: both fixed, on different lines, both
+  /// ends of kept edges, or one on the border and the other held elsewhere.
   bool complete_merges(FaceEdit& edit) const;
   /// Carries out an edit, which becomes its own inverse. False, and nothing changed, when the
   /// result would not be a mesh in which inner vertices have three faces or more.

@@ -6,6 +6,7 @@
 
 #include "boundary_graph.h"
 #include "chain_network.h"
+#include "chain_separation.h"
 #include "chain_tracing.h"
 #include "parallel.h"
 #include "premultiplied_colours.h"
@@ -17,10 +18,11 @@ namespace {
 
 // Cells of half a pixel keep both sides of thin lines apart, up to so many pixels.
 constexpr long long kFinePixels = 4'000'000;
-constexpr float kLevelsPerUnit = 255;   // of the gradient, for the watershed
-constexpr double kLeastDepth = 0.5;     // of a basin, of the pass out of it
-constexpr double kSidesPerPixel = 1.2;  // of a staircase, per length; a mean over directions
-constexpr float kNoise = 0.02f;         // gradients below it, per pixel, count as flat
+constexpr float kLevelsPerUnit = 255;     // of the gradient, for the watershed
+constexpr double kLeastSeparation = 0.8;  // pixels
+constexpr double kLeastDepth = 0.5;       // of a basin, of the pass out of it
+constexpr double kSidesPerPixel = 1.2;    // of a staircase, per length; a mean over directions
+constexpr float kNoise = 0.02f;           // gradients below it, per pixel, count as flat
 
 void check(const ChainOptions& options) {
   const auto is_good = [](double v) { return v > 0 && std::isfinite(v); };
@@ -91,8 +93,10 @@ ChainNetwork feature_chains(const Raster& picture, const ChainOptions& options,
   }
   simplify(graph, static_cast<std::size_t>(options.min_length * kSidesPerPixel * fineness),
            is_on_border);
-  return chain_network(traced_chains(picture, graph, cell, context), places, picture.width,
-                       picture.height);
+  ChainNetwork network = chain_network(traced_chains(picture, graph, cell, context), places,
+                                       picture.width, picture.height);
+  separate_chains(network, kLeastSeparation, options.min_length);
+  return network;
 }
 
 void shed_weak_chains(ChainNetwork& network, double spacing, double vertices) {

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kGoodQuality = 0.5;  // an edit may lower the quality to this
+constexpr double kGoodQuality = 0.5;  // what faces lack to it counts
 constexpr double kGoodAspect = 3;
 constexpr double kHold = 5;  // strong: free vertices wander off the features and blur the picture
 constexpr int kSweeps = 3;
@@ -44,14 +44,19 @@ void GuardedEditor::note_touched(const FaceEdit& edit) {
   for (const int v : touched_) saved_.push_back(mesh_.points[v]);
 }
 
-double GuardedEditor::quality_around() const {
-  double worst = 1;
+double GuardedEditor::badness_around() const {
+  std::vector<int> faces;
   for (const int v : touched_) {
-    for (const int f : mesh_.faces_at(v)) {
-      worst = std::min(worst, face_quality(mesh_, mesh_.face(f)));
-    }
+    faces.insert(faces.end(), mesh_.faces_at(v).begin(), mesh_.faces_at(v).end());
   }
-  return worst;
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  double sum = 0;
+  for (const int f : faces) {
+    const double lacking = std::max(0.0, kGoodQuality - face_quality(mesh_, mesh_.face(f)));
+    sum += lacking * lacking;
+  }
+  return sum;
 }
 
 void GuardedEditor::smooth() {
@@ -67,14 +72,14 @@ void GuardedEditor::smooth() {
 
 bool GuardedEditor::attempt(FaceEdit edit) {
   note_touched(edit);
-  const double before = quality_around();
+  const double before = badness_around();
   if (mesh_.apply(edit)) {
     for (const FaceEdit::Merge& m : edit.merged) {
       if (mesh_.guides[m.kept].kind != mesh_.guides[m.gone].kind) continue;
       mesh_.points[m.kept] = 0.5 * (mesh_.points[m.kept] + mesh_.points[m.gone]);
     }
     smooth();
-    if (quality_around() >= std::min(before, kGoodQuality)) {
+    if (badness_around() <= before) {
       for (const FaceEdit::Merge& m : edit.merged) anchors_[m.kept] = mesh_.points[m.kept];
       return true;
     }

@@ -17,8 +17,8 @@ class GuardedEditor {
   explicit GuardedEditor(FaceMesh& mesh) : mesh_(mesh), anchors_(mesh.points) {}
 
   /// Carries out the edit and smooths the vertices it touches, held back by springs to where they
-  /// were at first. False, and nothing changed, when the result is no mesh or the worst quality of
-  /// the faces around falls, unless it stays good.
+  /// were at first. False, and nothing changed, when the result is no mesh or the faces around lack
+  /// more of a good quality than before.
   bool attempt(FaceEdit edit);
 
  private:
@@ -29,7 +29,8 @@ class GuardedEditor {
   std::vector<StarWedge> wedges_;
 
   void note_touched(const FaceEdit& edit);
-  double quality_around() const;
+  /// Sum over the faces around of the square of what their quality lacks to a good one.
+  double badness_around() const;
   void smooth();
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "chain_sampling.h"
 #include "convex_faces.h"
@@ -22,12 +23,14 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kFlatCosine = 0.5;     // of the turn at a corner that ought to be divided
+constexpr double kLeastSine = 0.2;      // of corners beside chains
 constexpr double kShortestPiece = 1.5;  // pixels of a chain that are divided
 
 /// The triangulation of lattice points and chains.
 class Assembly {
  public:
-  Assembly(const LatticeGraph& graph, const ChainNetwork& chains, const Spacing& spacing,
+  Assembly(const LatticeGraph& graph, const ChainNetwork& chains, const DirectedSpacing& spacing,
            double width, double height)
       : graph_(graph),
         chains_(chains),
@@ -40,6 +43,7 @@ class Assembly {
     for (const Vector2d& p : samples_.points) vertex_of_sample_.push_back(insert(p));
     insert_chains();
     insert_lattice();
+    open_ears();
   }
 
   const Triangulation& triangulation() const { return triangulation_; }
@@ -96,6 +100,41 @@ class Assembly {
     }
   }
 
+  /// A triangle between two pieces of a chain has a corner that is flat where the chain is smooth;
+  /// an edge across it divides that corner.
+  void open_ears() {
+    std::set<std::array<int, 2>> chain_edges;
+    for (const FeatureEdge& edge : features_) {
+      const auto [a, b] = std::minmax(edge.ends[0], edge.ends[1]);
+      chain_edges.insert({a, b});
+    }
+    std::vector<std::array<int, 2>> wanted;
+    for (const Triangulation::Triangle& t : triangulation_.triangles()) {
+      for (int k = 0; k < 3; ++k) {
+        const int v = t.vertex[k], a = t.vertex[(k + 1) % 3], b = t.vertex[(k + 2) % 3];
+        const auto is_chain = [&](int n) {
+          return chain_edges.contains({std::min(v, n), std::max(v, n)});
+        };
+        if (t.fixed[k] || t.neighbour[k] < 0 || !is_chain(a) || !is_chain(b)) continue;
+        if (!is_flat(a, v, b)) continue;
+        const auto& far = triangulation_.triangles()[t.neighbour[k]].vertex;
+        const int w =
+            *std::find_if(far.begin(), far.end(), [&](int n) { return n != a && n != b; });
+        wanted.push_back({v, w});
+      }
+    }
+    for (const auto& [v, w] : wanted) triangulation_.insert_edge(v, w);
+  }
+
+  bool is_flat(int a, int v, int b) const {
+    const auto at = [&](int i) {
+      const GridPoint& p = triangulation_.points()[i];
+      return Vector2d(static_cast<double>(p.x), static_cast<double>(p.y));
+    };
+    const Vector2d in = (at(v) - at(a)).normalized(), out = (at(b) - at(v)).normalized();
+    return in.dot(out) > kFlatCosine;
+  }
+
   void insert_lattice() {
     std::vector<int> vertex_of(graph_.points.size(), -1);
     // Row by row, so that each walk to the next point is short.
@@ -114,6 +153,8 @@ class Assembly {
     }
     for (const auto& [a, b] : graph_.edges) {
       if (vertex_of[a] < 0 || vertex_of[b] < 0 || vertex_of[a] == vertex_of[b]) continue;
+      const int p = samples_.sample_of_lattice_point[a], q = samples_.sample_of_lattice_point[b];
+      if (p >= 0 && q >= 0 && samples_.is_ear(p, q)) continue;
       triangulation_.insert_edge(vertex_of[a], vertex_of[b]);
     }
   }
@@ -141,7 +182,7 @@ QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
   const double scale_x = width / field.z.width, scale_y = height / field.z.height;
   const LatticeGraph graph =
       scaled(lattice_graph(features, field, scale, positions), scale_x, scale_y);
-  const Spacing spacing = spacing_of(scale, scale_x, scale_y);
+  const DirectedSpacing spacing = directed_spacing(field, scale, scale_x, scale_y);
   const Assembly assembly(graph, chains, spacing, width, height);
   return divide_faces(assembly.points(), convex_faces(assembly.triangulation()),
                       assembly.features(), context);
@@ -162,6 +203,7 @@ QuadMesh divide_faces(std::vector<Vector2d> points, const std::vector<std::vecto
     fix_bent_border(mesh, guides);
   }
   smooth_shape(mesh, guides);
+  if (!features.empty()) release_bad_features(mesh, guides, kLeastSine);
   return mesh;
 }
 

@@ -190,7 +190,11 @@ QuadMesh extract_quads(const FeatureTensor& features, const CrossField& field,
   const double scale_x = width / field.z.width, scale_y = height / field.z.height;
   const LatticeGraph graph =
       scaled(lattice_graph(features, field, scale, positions), scale_x, scale_y);
-  const Spacing spacing = spacing_of(scale, scale_x, scale_y);
+  const Spacing spacing = [&](const Vector2d& p) {
+    const int x = std::clamp(static_cast<int>(p.x() / scale_x), 0, field.z.width - 1);
+    const int y = std::clamp(static_cast<int>(p.y() / scale_y), 0, field.z.height - 1);
+    return std::sqrt(scale_x * scale_y) * std::min(scale.along_x(x, y), scale.along_y(x, y));
+  };
   return mesh_inside(graph, outline, spacing, width, height, context);
 }
 

@@ -14,4 +14,9 @@ namespace quadrille {
 /// alone: a pass over all vertices costs more in the picture than it gains in shape.
 void smooth_shape(QuadMesh& mesh, std::span<const VertexGuide> guides);
 
+/// Takes feature edges off their features where a quad beside them has a corner below `least_sine`
+/// that smoothing does not mend, round by round; what is left of the feature goes on beside the
+/// gap.
+void release_bad_features(QuadMesh& mesh, std::span<VertexGuide> guides, double least_sine);
+
 }  // namespace quadrille
