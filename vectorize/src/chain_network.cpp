@@ -208,7 +208,7 @@ class NetworkBuilder {
     points = smoothed(std::move(points));
     const double length = arc_lengths(points).back();
     result_.chains.push_back(
-        {std::move(points), from, to, length, chain.contrast, chain.sharpness});
+        {std::move(points), from, to, length, chain.contrast, chain.sharpness, chain.contrast});
   }
 };
 

@@ -101,9 +101,8 @@ ChainNetwork feature_chains(const Raster& picture, const ChainOptions& options,
 
 void shed_weak_chains(ChainNetwork& network, double spacing, double vertices) {
   std::vector<FeatureChain>& chains = network.chains;
-  std::stable_sort(chains.begin(), chains.end(), [](const FeatureChain& a, const FeatureChain& b) {
-    return a.contrast > b.contrast;
-  });
+  std::stable_sort(chains.begin(), chains.end(),
+                   [](const FeatureChain& a, const FeatureChain& b) { return a.gain > b.gain; });
   double count = 0;
   const auto rest = std::find_if(chains.begin(), chains.end(), [&](const FeatureChain& chain) {
     count += 1 + chain.length / spacing;

@@ -1,27 +1,19 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
 #include "count_calibration.h"
-#include "density_map.h"
+#include "count_meshing.h"
 #include "meshed_region.h"
 #include "opaque_picture.h"
 #include "quadrille/error.h"
 #include "quadrille/mesh_region.h"
 #include "quadrille/vectorize.h"
 #include "region_features.h"
-#include "stage_clock.h"
 
 namespace quadrille {
 namespace {
 
-constexpr int kCalibrationRounds = 24;  // one or two for most pictures
-// An outline may need more quads than wished, whatever the lattice.
-constexpr int kOutlineRounds = 6;
-constexpr double kCloseEnough = 0.049;  // of the wished count
-// Cells asked for over cells made where the scale is graded: points too close to each other merge.
-constexpr double kGradingLoss = 1.1;
 // Lets a picture of exactly 4 quads a side count as one.
 constexpr double kRoundingSlack = 1 + 1e-9;
 // Lattice edges inside an outline for which fields are solved, in source pixels.
@@ -36,81 +28,6 @@ void check(const VectorizeOptions& options) {
     throw Error(ErrorCode::limit_exceeded, "the number of quads is " +
                                                std::to_string(options.quads) +
                                                "; ask for at most " + std::to_string(kMaxQuads));
-  }
-}
-
-double relative_miss(int quads, int wished) {
-  return std::abs(static_cast<double>(quads) - wished) / wished;
-}
-
-bool has_features(const FeatureTensor& features) {
-  return std::any_of(features.edges.data.begin(), features.edges.data.end(),
-                     [](unsigned char e) { return e != 0; });
-}
-
-/// Whole rows and columns of square cells may keep stepping over the wished count, so later rounds
-/// stretch the cells or give up whole ones.
-SideFit side_fit(int round) {
-  constexpr double kCounted = 0.02;
-  constexpr std::array<double, 5> kStretches = {1, 1.1, 1 / 1.1, 1.2, 1 / 1.2};
-  if (round < 3) return {};
-  return {round % 2 != 0, kCounted, kStretches[(round - 3) / 2 % kStretches.size()]};
-}
-
-bool is_valid(const QuadMesh& mesh, const std::vector<Loop>& outline, const Raster& picture) {
-  if (mesh.quad_count() == 0) return false;
-  const auto violations = outline.empty() ? validate(mesh, picture.width, picture.height)
-                                          : validate_region(mesh, picture.width, picture.height);
-  return violations.empty();
-}
-
-QuadMesh extract(const Quadrangulation& fields, const ScaleField& scale,
-                 const PositionField& position, const Raster& picture, const RunContext& context) {
-  if (fields.outline.empty()) {
-    return extract_quads(fields.features, fields.cross, scale, position, fields.chains,
-                         picture.width, picture.height, context);
-  }
-  return extract_quads(fields.features, fields.cross, scale, position, fields.outline,
-                       picture.width, picture.height, context);
-}
-
-/// Scales, positions and quads for the solved cross field, repeated with corrected scales until the
-/// count is close to the wished one; keeps the closest.
-void mesh_to_count(Quadrangulation& result, const Raster& picture, double edge,
-                   const VectorizeOptions& options, StageClock& clock, const RunContext& context) {
-  ScaleOptions scale_options = options.scale;
-  if (!options.density.data.empty()) {
-    scale_options.density =
-        density_map(options.density, result.cross.z.width, result.cross.z.height);
-  }
-  const ScaleField relative = relative_scale(result.features, result.cross,
-                                             edge / result.working.scale_x, scale_options, context);
-  const bool whole = result.outline.empty();
-  const double share = whole ? 1 : share_of_cells(result.outline, result.working, relative);
-  // Along an outline vertices are added about as often as points merge where the scale is graded.
-  const double loss = whole && has_features(result.features) ? kGradingLoss : 1;
-  CountCalibration calibration(options.quads, options.quads / 4.0 * loss / share);
-  const int rounds = whole ? kCalibrationRounds : kOutlineRounds;
-  for (int round = 0; round < rounds; ++round) {
-    ScaleField scale =
-        scaled_to_count(relative, result.cross, calibration.cells(), side_fit(round));
-    clock.finish("scale field");
-    PositionField position =
-        position_field(result.features, result.cross, scale, options.position, context);
-    clock.finish("position field");
-    QuadMesh mesh = extract(result, scale, position, picture, context);
-    const int quads = mesh.quad_count();
-    const bool valid = is_valid(mesh, result.outline, picture);
-    clock.finish("quads", {{"asked", std::round(4 * share * calibration.cells())},
-                           {"quads", static_cast<double>(quads)}});
-    if (round == 0 || (valid && relative_miss(quads, options.quads) <
-                                    relative_miss(result.mesh.quad_count(), options.quads))) {
-      result.mesh = std::move(mesh);
-      result.scale = std::move(scale);
-      result.position = std::move(position);
-    }
-    if (valid && relative_miss(quads, options.quads) <= kCloseEnough) return;
-    calibration.observe(quads);
   }
 }
 
@@ -155,12 +72,7 @@ void mesh_by_fields(Quadrangulation& result, const Raster& picture, double edge,
   clock.finish("features");
   result.cross = cross_field(result.features, options.cross_field, context);
   clock.finish("cross field", phase_figures(result.cross));
-  if (whole && options.chain_share > 0) {
-    result.chains = feature_chains(shown, options.chains, context);
-    shed_weak_chains(result.chains, edge, options.chain_share * options.quads / 4);
-    clock.finish("chains", {{"chains", static_cast<double>(result.chains.chains.size())}});
-  }
-  mesh_to_count(result, picture, edge, options, clock, context);
+  mesh_to_count(result, picture, edge, options, {wished_density(result, options)}, clock, context);
   snap_to_features(result.mesh, shown, options.snap, context);
   clock.finish("snapping");
 }

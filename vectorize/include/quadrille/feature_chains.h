@@ -28,6 +28,7 @@ struct FeatureChain {
   double length = 0;                    ///< pixels
   double contrast = 0;                  ///< mean along it
   double sharpness = 0;                 ///< mean along it
+  double gain = 0;                      ///< what following it is worth, any unit; contrast at first
 };
 
 /// Chains and the nodes where they end: junctions, corners (turns by more than about 45 degrees),
@@ -44,7 +45,7 @@ struct ChainNetwork {
 ChainNetwork feature_chains(const Raster& picture, const ChainOptions& options = {},
                             const RunContext& context = {});
 
-/// Leaves out the chains with the least contrast until, with a vertex at every `spacing` along them
+/// Leaves out the chains with the least gain until, with a vertex at every `spacing` along them
 /// and one at each end, there are at most `vertices`.
 void shed_weak_chains(ChainNetwork& network, double spacing, double vertices);
 

@@ -95,6 +95,13 @@ struct Vectorization {
 Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& options = {},
                               const RunContext& context = {});
 
+/// Meshes the picture once more, with the same cross field, so that every quad comes to the same
+/// error: more quads where `fitted`, a rendering at scale 1 of the picture's fit to the mesh so
+/// far, differs from it more, and feature edges along the chains beside which it differs most. A
+/// lattice stays as it is. Throws as quadrangulate() does.
+void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster& fitted,
+                     const VectorizeOptions& options, const RunContext& context = {});
+
 /// The whole way: quadrangulate, then the steps of fit_patches(), each reported as a stage. Throws
 /// as quadrangulate() does.
 Vectorization vectorize(const Raster& picture, const VectorizeOptions& options = {},
