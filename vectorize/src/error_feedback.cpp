@@ -18,11 +18,11 @@ using Eigen::Vector2d;
 // The error of a quad of size h grows as C sqrt(h), and the wished h as C^(-1/2.5); so the density
 // 1 / h^2 grows as this power of the error times that of the size.
 constexpr double kErrorPower = 0.8, kSizePower = 1.6;
-constexpr double kLeastError = 0.15;  // of the mean: flat areas stay covered
-constexpr double kMostChange = 6;     // of the density, either way
-constexpr double kWindow = 0.35;      // sigma of the error's window, in edges
-constexpr double kBesideChain = 2;    // pixels on either side whose error a chain answers for
-constexpr double kLeastGain = 1;      // of a chain, per vertex, beside the mesh's mean
+constexpr double kLeastError = 0.15;    // of the mean: flat areas stay covered
+constexpr double kMostChange = 6;       // of the density, either way
+constexpr double kWindow = 0.35;        // sigma of the error's window, in edges
+constexpr double kBesideChain = 2;      // pixels on either side whose error a chain answers for
+constexpr double kLeastCounted = 0.02;  // share of pixels that a mean takes for granted
 
 /// Squared distance of the premultiplied colours of each pixel.
 FieldGrid<float> squared_error(const Raster& shown, const Raster& fitted) {
@@ -40,21 +40,40 @@ FieldGrid<float> squared_error(const Raster& shown, const Raster& fitted) {
   return error;
 }
 
+/// 1 at the pixels whose error counts, 0 beside the chains: there it is expected to go away.
+cv::Mat counted_pixels(const FieldGrid<float>& error, const ChainNetwork& chains) {
+  cv::Mat counted(error.height, error.width, CV_32F, cv::Scalar(1));
+  for (const FeatureChain& chain : chains.chains) {
+    for (const Vector2d& p : chain.points) {
+      cv::circle(counted, {static_cast<int>(p.x()), static_cast<int>(p.y())},
+                 static_cast<int>(kBesideChain), cv::Scalar(0), cv::FILLED);
+    }
+  }
+  return counted;
+}
+
 /// How many times as many quads per area the error asks for, at the working pixels.
 FieldGrid<float> error_density(const Quadrangulation& quads, const FieldGrid<float>& error) {
   const int w = quads.scale.along_x.width, h = quads.scale.along_x.height;
-  cv::Mat source(error.height, error.width, CV_32F), mean;
-  for (std::size_t i = 0; i < error.data.size(); ++i) {
-    source.at<float>(static_cast<int>(i)) = std::sqrt(error.data[i]);
+  const cv::Mat counted = counted_pixels(error, quads.chains);
+  cv::Mat source(error.height, error.width, CV_32F), mean, weight;
+  for (int y = 0; y < error.height; ++y) {
+    for (int x = 0; x < error.width; ++x) {
+      source.at<float>(y, x) = counted.at<float>(y, x) * std::sqrt(error(x, y));
+    }
   }
   cv::resize(source, mean, {w, h}, 0, 0, cv::INTER_AREA);
+  cv::resize(counted, weight, {w, h}, 0, 0, cv::INTER_AREA);
   FieldGrid<float> size(w, h);
   for (std::size_t i = 0; i < size.data.size(); ++i) {
     size.data[i] = std::sqrt(quads.scale.along_x.data[i] * quads.scale.along_y.data[i]);
   }
   const double mean_size =
       std::accumulate(size.data.begin(), size.data.end(), 0.0) / size.data.size();
-  cv::GaussianBlur(mean, mean, {}, std::max(0.5, kWindow * mean_size), 0, cv::BORDER_REPLICATE);
+  for (cv::Mat* m : {&mean, &weight}) {
+    cv::GaussianBlur(*m, *m, {}, std::max(0.5, kWindow * mean_size), 0, cv::BORDER_REPLICATE);
+  }
+  mean /= weight + kLeastCounted;
   const double mean_error = std::max(cv::mean(mean)[0], 1e-6);
   FieldGrid<float> density(w, h);
   for (int y = 0; y < h; ++y) {
@@ -70,7 +89,7 @@ FieldGrid<float> error_density(const Quadrangulation& quads, const FieldGrid<flo
 
 /// Keeps the chains beside which there is more error per vertex than in the mesh on average.
 void keep_worthwhile(ChainNetwork& network, const FieldGrid<float>& error, double spacing,
-                     double vertices) {
+                     double vertices, double least_gain) {
   const double usual =
       std::accumulate(error.data.begin(), error.data.end(), 0.0) / std::max(1.0, vertices);
   std::erase_if(network.chains, [&](FeatureChain& chain) {
@@ -88,7 +107,7 @@ void keep_worthwhile(ChainNetwork& network, const FieldGrid<float>& error, doubl
       }
     }
     chain.gain = sum / (1 + chain.length / spacing);
-    return chain.gain < kLeastGain * usual;
+    return chain.gain < least_gain * usual;
   });
 }
 
@@ -105,18 +124,17 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
   StageClock clock(context);
   FieldGrid<float> error = squared_error(shown, fitted);
   const double edge = 2 * std::sqrt(1.0 * picture.width * picture.height / options.quads);
+  if (whole && options.chain_share > 0) {
+    quads.chains = feature_chains(shown, options.chains, context);
+    keep_worthwhile(quads.chains, error, edge, options.quads / 4.0, options.least_chain_gain);
+    shed_weak_chains(quads.chains, edge, options.chain_share * options.quads / 4);
+    clock.finish("chains", {{"chains", static_cast<double>(quads.chains.chains.size())}});
+  }
   CountWish wish;
   wish.density = with_opencv_errors([&] { return error_density(quads, error); });
   const FieldGrid<float> map = wished_density(quads, options);
   for (std::size_t i = 0; i < map.data.size(); ++i) wish.density.data[i] *= map.data[i];
   clock.finish("error");
-  if (whole && options.chain_share > 0) {
-    quads.chains = feature_chains(shown, options.chains, context);
-    const double most = options.chain_share * options.quads / 4;
-    keep_worthwhile(quads.chains, error, edge, options.quads / 4.0);
-    shed_weak_chains(quads.chains, edge, most);
-    clock.finish("chains", {{"chains", static_cast<double>(quads.chains.chains.size())}});
-  }
   mesh_to_count(quads, picture, edge, options, wish, clock, context);
   snap_to_features(quads.mesh, shown, options.snap, context);
   clock.finish("snapping");

@@ -42,6 +42,9 @@ struct VectorizeOptions {
   ChainOptions chains;
   /// The most vertices on chains, as a share of the mesh's; the weakest chains are left out.
   double chain_share = 0.5;
+  /// Chains are followed where the first fit's squared error beside them, per vertex on them, is at
+  /// least so many times that of the whole picture per vertex; 0 follows all.
+  double least_chain_gain = 1;
   SnapOptions snap;
   FitOptions fit;
   /// Use the plain axis-aligned lattice instead of the fields.
