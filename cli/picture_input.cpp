@@ -22,13 +22,15 @@ Raster read_raster(const fs::path& path, Observer& observer) {
 
 VectorImage read_vector_image(const fs::path& path, const MeshOptions& mesh, Observer& observer) {
   if (is_document(path)) return observer.stage("read", [&] { return load_document(path); });
-  return vectorize_picture(read_raster(path, observer), path, mesh, observer).image;
+  const Raster picture = read_raster(path, observer);
+  const ChosenOptions chosen = choose_options(mesh, picture, observer);
+  return vectorize_picture(picture, path, chosen.vectorize, observer).image;
 }
 
 Vectorization vectorize_picture(const Raster& picture, const fs::path& source,
-                                const MeshOptions& mesh, Observer& observer) {
-  Vectorization result = with_name_of(
-      source, [&] { return vectorize(picture, mesh.vectorize_options(), observer.context()); });
+                                const VectorizeOptions& options, Observer& observer) {
+  Vectorization result =
+      with_name_of(source, [&] { return vectorize(picture, options, observer.context()); });
   result.image.metadata["title"] = printable_name(source.stem());
   result.image.metadata["source"] = printable_name(source);
   return result;

@@ -40,6 +40,16 @@ Json phases_of(const std::vector<CrossFieldPhase>& phases) {
   return entries;
 }
 
+Json preset_of(const ChosenOptions& chosen) {
+  Json preset = {{"name", chosen.preset}};
+  if (chosen.content) {
+    preset["flat_share"] = chosen.content->flat_share;
+    preset["main_colors"] = chosen.content->main_colors;
+    preset["transparent_share"] = chosen.content->transparent_share;
+  }
+  return preset;
+}
+
 Json sizes_of(const std::vector<fs::path>& outputs) {
   Json files = Json::array();
   for (const fs::path& output : outputs) {
@@ -75,7 +85,8 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
       {"width", v.width},
       {"height", v.height},
       {"options",
-       {{"quads", report.options.quads},
+       {{"quads", report.chosen.vectorize.quads},
+        {"preset", report.options.preset},
         {"fit", report.options.fit},
         {"lattice", report.options.lattice},
         {"mesh", report.options.mesh},
@@ -83,6 +94,7 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
         {"field", report.options.field},
         {"density", printable_name(report.options.density)},
         {"threads", observer.context().threads}}},
+      {"preset", preset_of(report.chosen)},
       {"quads", v.quads},
       {"vertices", v.vertices},
       {"irregular_vertices", v.irregular_vertices},

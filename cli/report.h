@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "chosen_options.h"
 #include "common_options.h"
 #include "observer.h"
 #include "quadrille/metrics.h"
@@ -23,6 +24,7 @@ Measurement measure(const VectorImage& image, const Raster& picture, Observer& o
 struct RunReport {
   std::filesystem::path source;
   const MeshOptions& options;
+  const ChosenOptions& chosen;
   const VectorizeReport& vectorization;
   const Measurement& measurement;
   std::vector<std::filesystem::path> outputs;

@@ -42,7 +42,9 @@ int run_vectorize(const VectorizeRequest& request) {
 
   const Raster picture = read_raster(request.input, observer);
   check_scale(picture, request.scale);
-  const Vectorization result = vectorize_picture(picture, request.input, request.mesh, observer);
+  const ChosenOptions chosen = choose_options(request.mesh, picture, observer);
+  const Vectorization result =
+      vectorize_picture(picture, request.input, chosen.vectorize, observer);
   ExportOptions options;
   options.raster.scale = request.scale;
   write_outputs(result.image, request.outputs, options, observer);
@@ -54,9 +56,9 @@ int run_vectorize(const VectorizeRequest& request) {
                             measurement.difference.psnr, measurement.difference.ssim));
   if (!request.report.empty()) {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    write_report(
-        {request.input, request.mesh, result.report, measurement, request.outputs, seconds.count()},
-        observer, request.report);
+    write_report({request.input, request.mesh, chosen, result.report, measurement, request.outputs,
+                  seconds.count()},
+                 observer, request.report);
   }
   return kSuccess;
 }

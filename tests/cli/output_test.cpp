@@ -207,6 +207,32 @@ TEST_F(Output, TheReportTellsEverything) {
   for (const auto& stage : report["stages"]) EXPECT_GE(stage["seconds"].get<double>(), 0);
 }
 
+TEST_F(Output, ThePresetIsChosenByContentOrNamed) {
+  const fs::path folder = fresh_folder("preset");
+  const auto report_of = [&](const std::string& name, const std::vector<std::string>& options) {
+    expect_silent_success(
+        quadrille(join({sample(name), "--lattice", "-o", (folder / "a.quad").string(), "--report",
+                        (folder / "r.json").string()},
+                       options)));
+    return nlohmann::json::parse(bytes_of(folder / "r.json"));
+  };
+  const auto flat = report_of("formats/uniform_gray.png", {});
+  EXPECT_EQ(flat["options"]["preset"], "auto");
+  EXPECT_EQ(flat["preset"]["name"], "graphic");
+  EXPECT_EQ(flat["preset"]["flat_share"], 1);
+  EXPECT_EQ(flat["preset"]["main_colors"], 1);
+  EXPECT_EQ(flat["options"]["quads"], 2100);
+  const auto draft = report_of("formats/uniform_gray.png", {"--preset", "draft"});
+  EXPECT_EQ(draft["preset"]["name"], "draft");
+  EXPECT_FALSE(draft["preset"].contains("flat_share"));
+  EXPECT_EQ(draft["options"]["quads"], 300);
+  EXPECT_EQ(report_of("formats/coast_progressive.jpg", {})["preset"]["name"], "photo");
+  const auto counted =
+      report_of("formats/coast_progressive.jpg", {"--preset", "fine", "--quads", "150"});
+  EXPECT_EQ(counted["preset"]["name"], "fine");
+  EXPECT_EQ(counted["options"]["quads"], 150);
+}
+
 TEST_F(Output, TheLatticeHasNoIrregularVertex) {
   const fs::path folder = fresh_folder("lattice");
   expect_silent_success(quadrille({picture(), "-o", (folder / "a.quad").string(), "--quads", "200",
@@ -243,7 +269,7 @@ TEST_F(Output, VerboseTellsAStageALine) {
       quadrille({picture(), "-o", (folder / "a.svg").string(), "--quads", "200", "-v"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.out, "");
-  for (const char* stage : {"read", "cross field", "write .svg", "MAE"}) {
+  for (const char* stage : {"read", "preset photo", "cross field", "write .svg", "MAE"}) {
     EXPECT_THAT(result.err, HasSubstr(stage));
   }
   EXPECT_EQ(result.err.find('\r'), std::string::npos);

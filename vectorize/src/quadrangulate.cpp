@@ -7,6 +7,7 @@
 #include "density_map.h"
 #include "meshed_region.h"
 #include "opaque_picture.h"
+#include "option_checks.h"
 #include "quadrille/error.h"
 #include "quadrille/mesh_region.h"
 #include "quadrille/vectorize.h"
@@ -37,6 +38,10 @@ void check(const VectorizeOptions& options) {
                                                std::to_string(options.quads) +
                                                "; ask for at most " + std::to_string(kMaxQuads));
   }
+  check_options(options.cross_field);
+  check_options(options.scale);
+  check_options(options.position);
+  check_options(options.snap);
 }
 
 double relative_miss(int quads, int wished) {
