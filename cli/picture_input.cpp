@@ -11,6 +11,15 @@ namespace quadrille::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+void note_source(VectorImage& image, const fs::path& source) {
+  image.metadata["title"] = printable_name(source.stem());
+  image.metadata["source"] = printable_name(source);
+}
+
+}  // namespace
+
 bool is_document(const fs::path& path) { return ending_of(path) == ".quad"; }
 
 Raster read_raster(const fs::path& path, Observer& observer) {
@@ -31,9 +40,18 @@ Vectorization vectorize_picture(const Raster& picture, const fs::path& source,
                                 const VectorizeOptions& options, Observer& observer) {
   Vectorization result =
       with_name_of(source, [&] { return vectorize(picture, options, observer.context()); });
-  result.image.metadata["title"] = printable_name(source.stem());
-  result.image.metadata["source"] = printable_name(source);
+  note_source(result.image, source);
   return result;
+}
+
+BoundedVectorization vectorize_picture_to_error(const Raster& picture, const fs::path& source,
+                                                const ErrorBound& bound,
+                                                const VectorizeOptions& options,
+                                                Observer& observer) {
+  BoundedVectorization bounded = with_name_of(
+      source, [&] { return vectorize_to_error(picture, bound, options, observer.context()); });
+  note_source(bounded.result.image, source);
+  return bounded;
 }
 
 std::string printable_name(const fs::path& path) {

@@ -50,6 +50,18 @@ Json preset_of(const ChosenOptions& chosen) {
   return preset;
 }
 
+/// Null without a bound.
+Json error_bound_of(const RunReport& report) {
+  if (!report.max_error) return nullptr;
+  Json rounds = Json::array();
+  for (const ErrorBoundRound& round : report.rounds) {
+    rounds.push_back({{"wished", round.wished_quads}, {"quads", round.quads}, {"mae", round.mae}});
+  }
+  return {{"wished", *report.max_error},
+          {"met", report.measurement.difference.mae <= *report.max_error},
+          {"rounds", rounds}};
+}
+
 Json sizes_of(const std::vector<fs::path>& outputs) {
   Json files = Json::array();
   for (const fs::path& output : outputs) {
@@ -95,6 +107,7 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
         {"density", printable_name(report.options.density)},
         {"threads", observer.context().threads}}},
       {"preset", preset_of(report.chosen)},
+      {"error_bound", error_bound_of(report)},
       {"quads", v.quads},
       {"vertices", v.vertices},
       {"irregular_vertices", v.irregular_vertices},

@@ -203,6 +203,7 @@ TEST_F(Output, TheReportTellsEverything) {
   }
   EXPECT_EQ(report["cross_field"][2]["misalignment_degrees"], report["misalignment_degrees"]);
   EXPECT_EQ(report["options"]["field"], "smooth");
+  EXPECT_TRUE(report["error_bound"].is_null());
   ASSERT_FALSE(report["stages"].empty());
   for (const auto& stage : report["stages"]) EXPECT_GE(stage["seconds"].get<double>(), 0);
 }
@@ -231,6 +232,27 @@ TEST_F(Output, ThePresetIsChosenByContentOrNamed) {
       report_of("formats/coast_progressive.jpg", {"--preset", "fine", "--quads", "150"});
   EXPECT_EQ(counted["preset"]["name"], "fine");
   EXPECT_EQ(counted["options"]["quads"], 150);
+}
+
+TEST_F(Output, TheErrorKeepsWithinItsBound) {
+  const fs::path folder = fresh_folder("max_error");
+  const auto run_with = [&](const std::string& error, const std::string& quads) {
+    return quadrille({picture(), "--lattice", "--max-error", error, "--quads", quads, "-o",
+                      (folder / "a.quad").string(), "--report", (folder / "r.json").string()});
+  };
+  const auto report = [&] { return nlohmann::json::parse(bytes_of(folder / "r.json")); };
+  expect_silent_success(run_with("12", "5000"));
+  EXPECT_EQ(report()["error_bound"]["met"], true);
+  EXPECT_EQ(report()["error_bound"]["wished"], 12);
+  EXPECT_LE(report()["mae"].get<double>(), 12);
+  EXPECT_FALSE(report()["error_bound"]["rounds"].empty());
+  EXPECT_LE(report()["quads"].get<int>(), 5000 * 1.05);
+
+  const CommandResult missed = run_with("0.01", "100");
+  EXPECT_EQ(missed.exit_code, 0);
+  EXPECT_TRUE(is_one_complaint(missed.err)) << missed.err;
+  EXPECT_THAT(missed.err, HasSubstr("warning"));
+  EXPECT_EQ(report()["error_bound"]["met"], false);
 }
 
 TEST_F(Output, TheLatticeHasNoIrregularVertex) {

@@ -60,6 +60,8 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{"a.png", "-o", "b.svg", "--alignment", "1e9"},
         std::vector<std::string>{"a.png", "-o", "b.svg", "--lattice", "--alignment", "1000.5"},
         std::vector<std::string>{"a.png", "-o", "b.svg", "--alignment", "0"},
+        std::vector<std::string>{"a.png", "-o", "b.svg", "--max-error", "0"},
+        std::vector<std::string>{"a.png", "-o", "b.svg", "--max-error", "256"},
         std::vector<std::string>{"a.png", "-o", "b.png", "--scale", "0"},
         std::vector<std::string>{"a.png", "-o", "b.png", "--scale", "-2"},
         std::vector<std::string>{"a.png", "-o", "b.png", "--scale", "nan"},
