@@ -10,8 +10,11 @@
 #include "fit/size_growth.h"
 #include "fit/tables.h"
 #include "fit/upscale.h"
+#include "own_process.h"
 #include "pictures.h"
 #include "quadrille/error.h"
+#include "quadrille/image_file.h"
+#include "quadrille/preset.h"
 
 namespace {
 
@@ -33,6 +36,12 @@ struct Options {
   std::vector<std::string> folders;
 };
 
+/// The name of the preset that the picture's content asks for, or an error.
+Json kind_of(const fs::path& picture) {
+  return run_in_own_process(
+      [&]() -> Json { return quadrille::choose_preset(quadrille::load_image(picture)).name; });
+}
+
 /// The picture's figures; names the runs that failed on standard error.
 Json figures_of(const fs::path& picture, const std::vector<FitRun>& runs, const Options& options,
                 bool& good) {
@@ -46,6 +55,7 @@ Json figures_of(const fs::path& picture, const std::vector<FitRun>& runs, const 
       all[Json::json_pointer(place)] = std::move(figures);
     }
   };
+  keep("/preset", kind_of(picture));
   for (const FitRun& run : runs) keep(place_of(run), fit_figures(picture, run, options.figures));
   if (!options.no_upscale) keep("/upscale", upscale_figures(picture, options.upscale));
   return all;
@@ -56,13 +66,17 @@ std::vector<TableRow> run_folder(const fs::path& folder, const std::vector<FitRu
   std::vector<TableRow> rows;
   for (const fs::path& picture : pictures_in(folder, options.choice)) {
     Json figures = figures_of(picture, runs, options, good);
-    if (!figures.empty()) rows.push_back({picture.stem().string(), std::move(figures)});
+    if (figures.size() > 1) rows.push_back({picture.stem().string(), std::move(figures)});
   }
   if (rows.empty()) return rows;
   const std::string of = fmt::format("{}, {} pictures", folder.string(), rows.size());
   if (!runs.empty()) {
     print_quality(of, runs, rows);
     print_means(of, runs, rows);
+    const auto kinds = by_preset(rows);
+    for (const auto& [kind, members] : kinds) {
+      if (kinds.size() > 1) print_means(fmt::format("{}, {}", kind, members.size()), runs, members);
+    }
   }
   if (!options.no_upscale) print_upscale(of, rows);
   return rows;
@@ -110,7 +124,11 @@ int main(int argc, char** argv) {
   parser.add_option("--fits", options.fits, "only these ways of estimating colours")
       ->delimiter(',');
   parser
-      .add_option("--upscale-quads", options.upscale.quads, "wished quads of the reduced pictures")
+      .add_option("--upscale-quads", options.upscale.quads, "wished quads of the reduced drawings")
+      ->check(CLI::Range(1, 2'000'000));
+  parser
+      .add_option("--upscale-photo-quads", options.upscale.photo_quads,
+                  "those of the reduced photographs")
       ->check(CLI::Range(1, 2'000'000));
   parser.add_option("--threads", options.figures.threads, "worker threads, 0 for all");
   parser.add_option("--only", options.choice.only, "only pictures whose name has this text");

@@ -9,16 +9,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The means of the run's numbers over the rows.
-Json mean_figures(const FitRun& run, const std::vector<TableRow>& rows) {
+/// The means over the rows of the numbers that they have below `place`.
+Json mean_figures(const std::string& place, const std::vector<TableRow>& rows) {
   Json result = Json::object();
   for (const TableRow& row : rows) {
-    const Json::json_pointer at(place_of(run));
+    const Json::json_pointer at(place);
     if (!row.json.contains(at)) continue;
     const Json flat = row.json.at(at).flatten();
     for (const auto& [key, value] : flat.items()) {
       if (!value.is_number() || result.contains(key)) continue;
-      result[key] = mean(values(rows, {"", place_of(run) + key}));
+      result[key] = mean(values(rows, {"", place + key}));
     }
   }
   return result.empty() ? result : result.unflatten();
@@ -76,6 +76,14 @@ std::string place_of(const FitRun& run) {
   return fmt::format("/{}/{}/{}", run.quads, run.mesh_name(), run.fit.name);
 }
 
+std::map<std::string, std::vector<TableRow>> by_preset(const std::vector<TableRow>& rows) {
+  std::map<std::string, std::vector<TableRow>> kinds;
+  for (const TableRow& row : rows) {
+    if (row.json.contains("preset")) kinds[row.json["preset"].get<std::string>()].push_back(row);
+  }
+  return kinds;
+}
+
 void print_quality(const std::string& of, const std::vector<FitRun>& runs,
                    const std::vector<TableRow>& rows) {
   for (const int quads : quad_counts(runs)) {
@@ -98,7 +106,7 @@ void print_means(const std::string& of, const std::vector<FitRun>& runs,
   std::vector<TableRow> means;
   for (const FitRun& run : runs) {
     means.push_back({fmt::format("{} {} {}", run.quads, run.mesh_name(), run.fit.name),
-                     mean_figures(run, rows)});
+                     mean_figures(place_of(run), rows)});
   }
   std::vector<Column> columns = {{"quads", "/quads"},
                                  {"MAE", "/mae", 2},
@@ -121,7 +129,7 @@ void print_means(const std::string& of, const std::vector<FitRun>& runs,
 }
 
 void print_upscale(const std::string& of, const std::vector<TableRow>& rows) {
-  std::vector<Column> columns = {{"quads", "/upscale/quads"}};
+  std::vector<Column> columns = {{"", "/preset"}, {"quads", "/upscale/quads"}};
   for (const auto& [title, figure, decimals, worst] :
        {std::tuple{"PSNR", "psnr", 2, Worst::lowest},
         {"SSIM", "ssim", 4, Worst::lowest},
@@ -134,6 +142,11 @@ void print_upscale(const std::string& of, const std::vector<TableRow>& rows) {
   columns.push_back({"dB above Lanczos", "/upscale/gain", 2, 1, Worst::lowest});
   columns.push_back({"edge MAE over its", "/upscale/edge_ratio", 3, 1, Worst::highest});
   print_table("Reduced by 4 and enlarged again: " + of, columns, rows);
+  std::vector<TableRow> means;
+  for (const auto& [kind, members] : by_preset(rows)) {
+    means.push_back({kind, {{"upscale", mean_figures("/upscale", members)}}});
+  }
+  if (means.size() > 1) print_list("The same by kind of picture", columns, means);
 }
 
 void print_size_growth(const std::string& of, const std::vector<TableRow>& rows) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@ namespace quadrille::bench {
 
 /// Where a row keeps the figures of a run, as a JSON pointer: /QUADS/MESH/FIT.
 std::string place_of(const FitRun& run);
+
+/// The rows by their member `preset`; those without it are left out.
+std::map<std::string, std::vector<TableRow>> by_preset(const std::vector<TableRow>& rows);
 
 /// Per number of quads: MAE, PSNR and SSIM of every run, a line per picture.
 void print_quality(const std::string& of, const std::vector<FitRun>& runs,

@@ -4,6 +4,7 @@
 #include "own_process.h"
 #include "quadrille/image_file.h"
 #include "quadrille/metrics.h"
+#include "quadrille/preset.h"
 #include "quadrille/render.h"
 #include "quadrille/vectorize.h"
 #include "resample.h"
@@ -35,7 +36,8 @@ Json measure(const std::filesystem::path& path, const UpscaleOptions& wish) {
       crop(whole, 0, 0, whole.width / kFactor * kFactor, whole.height / kFactor * kFactor);
   const Raster small = reduced(original, kFactor);
   VectorizeOptions options;
-  options.quads = wish.quads;
+  const bool photo = choose_preset(original).name == "photo";
+  options.quads = photo ? wish.photo_quads : wish.quads;
   const VectorImage image = vectorize(small, options, context).image;
   RenderOptions large;
   large.scale = kFactor;
