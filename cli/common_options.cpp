@@ -5,9 +5,30 @@
 #include <charconv>
 #include <cmath>
 
-#include "quadrille/image_file.h"
+#include "quadrille/preset.h"
 
 namespace quadrille::cli {
+namespace {
+
+/// The presets' names and what they are for.
+std::string preset_help() {
+  std::string text =
+      "level of detail, which decides the number of quads by the picture's size unless --quads "
+      "does:\nauto - chosen by the picture's content";
+  for (const Preset& preset : presets()) {
+    text += fmt::format("\n{} - {}, a quad per {} pixels", preset.name, preset.purpose,
+                        preset.pixels_per_quad);
+  }
+  return text;
+}
+
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names = {"auto"};
+  for (const Preset& preset : presets()) names.push_back(preset.name);
+  return names;
+}
+
+}  // namespace
 
 Verbosity RunOptions::verbosity() const {
   if (quiet) return Verbosity::quiet;
@@ -26,25 +47,14 @@ void declare_run_options(CLI::App& parser, RunOptions& options) {
       ->excludes(verbose);
 }
 
-VectorizeOptions MeshOptions::vectorize_options() const {
-  VectorizeOptions options;
-  options.quads = quads;
-  options.fit.method = fit == "bessel"      ? FitMethod::bessel
-                       : fit == "bessel-ls" ? FitMethod::bessel_ls
-                                            : FitMethod::hermite;
-  options.lattice = lattice;
-  options.region = mesh == "opaque" ? MeshRegion::opaque : MeshRegion::whole;
-  options.cross_field.alignment = alignment;
-  options.cross_field.method =
-      field == "paper" ? CrossFieldMethod::paper : CrossFieldMethod::smooth;
-  if (!density.empty()) options.density = load_image(density);
-  return options;
-}
-
 void declare_quad_options(CLI::App& parser, MeshOptions& options) {
-  parser.add_option("--quads", options.quads, "wished number of quads, met within 5 % from 200 up")
-      ->check(CLI::Range(1, kMaxQuads))
+  parser.add_option("--preset", options.preset, preset_help())
+      ->check(CLI::IsMember(preset_names()))
       ->capture_default_str();
+  parser
+      .add_option("--quads", options.quads,
+                  "wished number of quads, met within 5 % from 200 up; the preset's by default")
+      ->check(CLI::Range(1, kMaxQuads));
   parser.add_flag("--lattice", options.lattice,
                   "a plain axis-aligned lattice instead of the field-aligned mesh");
   parser
@@ -59,6 +69,7 @@ void declare_quad_options(CLI::App& parser, MeshOptions& options) {
                   "how closely the cross field follows features, at the price of singularities: "
                   "about 0.01 to 0.5")
       ->check(positive_number())
+      ->check(CLI::Range(0.0, kMaxAlignment))
       ->capture_default_str();
   parser
       .add_option("--field", options.field,

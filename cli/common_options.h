@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,6 @@
 #include "quadrille/vectorize.h"
 
 namespace quadrille::cli {
-
-inline constexpr int kMaxQuads = 2'000'000;
 
 /// Options that several sub-commands share, and their declaration.
 
@@ -24,18 +23,16 @@ struct RunOptions {
 void declare_run_options(CLI::App& parser, RunOptions& options);
 
 struct MeshOptions {
-  int quads = 3000;
+  std::string preset = "auto";
+  std::optional<int> quads;  ///< absent: the preset's
   std::string fit = "hermite";
   bool lattice = false;
   std::string mesh = "whole";
   double alignment = CrossFieldOptions{}.alignment;
   std::string field = "smooth";
   std::filesystem::path density;  ///< empty for none
-
-  /// Reads the density map.
-  VectorizeOptions vectorize_options() const;
 };
-/// --quads, --lattice, --mesh, --alignment, --field and --density.
+/// --preset, --quads, --lattice, --mesh, --alignment, --field and --density.
 void declare_quad_options(CLI::App& parser, MeshOptions& options);
 /// These and --fit.
 void declare_mesh_options(CLI::App& parser, MeshOptions& options);

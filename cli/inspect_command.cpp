@@ -36,9 +36,9 @@ int run_inspect(const InspectRequest& request) {
   check_outputs({request.output}, request.input, kRasterEndings);
   Observer observer(request.run.verbosity(), request.run.threads);
   const Raster picture = read_raster(request.input, observer);
-  const Quadrangulation stages = with_name_of(request.input, [&] {
-    return quadrangulate(picture, request.mesh.vectorize_options(), observer.context());
-  });
+  const ChosenOptions options = choose_options(request.mesh, picture, observer);
+  const Quadrangulation stages = with_name_of(
+      request.input, [&] { return quadrangulate(picture, options.vectorize, observer.context()); });
 
   const auto chosen = std::ranges::find(stage_pictures(), request.stage, &StagePicture::name);
   if (chosen->needs_fields && stages.cross.z.data.empty()) {

@@ -69,6 +69,12 @@ void Observer::tell(const std::string& line) {
   fmt::print(stderr, "{}\n", line);
 }
 
+void Observer::warn(const std::string& line) {
+  if (verbosity_ == Verbosity::quiet) return;
+  erase_bar();
+  fmt::print(stderr, "quadrille: {}\n", line);
+}
+
 void Observer::erase_bar() {
   if (!bar_shown_) return;
   fmt::print(stderr, "\r\033[K");

@@ -43,6 +43,8 @@ class Observer {
 
   /// A line on stderr for whoever watches: on a terminal, or when verbose.
   void tell(const std::string& line);
+  /// A line on stderr that only --quiet leaves out.
+  void warn(const std::string& line);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -11,6 +11,15 @@ namespace quadrille::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+void note_source(VectorImage& image, const fs::path& source) {
+  image.metadata["title"] = printable_name(source.stem());
+  image.metadata["source"] = printable_name(source);
+}
+
+}  // namespace
+
 bool is_document(const fs::path& path) { return ending_of(path) == ".quad"; }
 
 Raster read_raster(const fs::path& path, Observer& observer) {
@@ -22,16 +31,27 @@ Raster read_raster(const fs::path& path, Observer& observer) {
 
 VectorImage read_vector_image(const fs::path& path, const MeshOptions& mesh, Observer& observer) {
   if (is_document(path)) return observer.stage("read", [&] { return load_document(path); });
-  return vectorize_picture(read_raster(path, observer), path, mesh, observer).image;
+  const Raster picture = read_raster(path, observer);
+  const ChosenOptions chosen = choose_options(mesh, picture, observer);
+  return vectorize_picture(picture, path, chosen.vectorize, observer).image;
 }
 
 Vectorization vectorize_picture(const Raster& picture, const fs::path& source,
-                                const MeshOptions& mesh, Observer& observer) {
-  Vectorization result = with_name_of(
-      source, [&] { return vectorize(picture, mesh.vectorize_options(), observer.context()); });
-  result.image.metadata["title"] = printable_name(source.stem());
-  result.image.metadata["source"] = printable_name(source);
+                                const VectorizeOptions& options, Observer& observer) {
+  Vectorization result =
+      with_name_of(source, [&] { return vectorize(picture, options, observer.context()); });
+  note_source(result.image, source);
   return result;
+}
+
+BoundedVectorization vectorize_picture_to_error(const Raster& picture, const fs::path& source,
+                                                const ErrorBound& bound,
+                                                const VectorizeOptions& options,
+                                                Observer& observer) {
+  BoundedVectorization bounded = with_name_of(
+      source, [&] { return vectorize_to_error(picture, bound, options, observer.context()); });
+  note_source(bounded.result.image, source);
+  return bounded;
 }
 
 std::string printable_name(const fs::path& path) {

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 
+#include "chosen_options.h"
 #include "common_options.h"
 #include "observer.h"
 #include "quadrille/error.h"
+#include "quadrille/error_bound.h"
 #include "quadrille/raster.h"
 #include "quadrille/vector_image.h"
 
@@ -22,7 +24,14 @@ VectorImage read_vector_image(const std::filesystem::path& path, const MeshOptio
 
 /// Vectorizes a picture and notes in the metadata what the documents should remember of it.
 Vectorization vectorize_picture(const Raster& picture, const std::filesystem::path& source,
-                                const MeshOptions& mesh, Observer& observer);
+                                const VectorizeOptions& options, Observer& observer);
+
+/// The same for vectorize_to_error().
+BoundedVectorization vectorize_picture_to_error(const Raster& picture,
+                                                const std::filesystem::path& source,
+                                                const ErrorBound& bound,
+                                                const VectorizeOptions& options,
+                                                Observer& observer);
 
 /// The file's name without its folder as valid, printable UTF-8.
 std::string printable_name(const std::filesystem::path& path);

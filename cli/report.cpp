@@ -40,6 +40,28 @@ Json phases_of(const std::vector<CrossFieldPhase>& phases) {
   return entries;
 }
 
+Json preset_of(const ChosenOptions& chosen) {
+  Json preset = {{"name", chosen.preset}};
+  if (chosen.content) {
+    preset["flat_share"] = chosen.content->flat_share;
+    preset["main_colors"] = chosen.content->main_colors;
+    preset["transparent_share"] = chosen.content->transparent_share;
+  }
+  return preset;
+}
+
+/// Null without a bound.
+Json error_bound_of(const RunReport& report) {
+  if (!report.max_error) return nullptr;
+  Json rounds = Json::array();
+  for (const ErrorBoundRound& round : report.rounds) {
+    rounds.push_back({{"wished", round.wished_quads}, {"quads", round.quads}, {"mae", round.mae}});
+  }
+  return {{"wished", *report.max_error},
+          {"met", report.measurement.difference.mae <= *report.max_error},
+          {"rounds", rounds}};
+}
+
 Json sizes_of(const std::vector<fs::path>& outputs) {
   Json files = Json::array();
   for (const fs::path& output : outputs) {
@@ -75,7 +97,8 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
       {"width", v.width},
       {"height", v.height},
       {"options",
-       {{"quads", report.options.quads},
+       {{"quads", report.chosen.vectorize.quads},
+        {"preset", report.options.preset},
         {"fit", report.options.fit},
         {"lattice", report.options.lattice},
         {"mesh", report.options.mesh},
@@ -83,6 +106,8 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
         {"field", report.options.field},
         {"density", printable_name(report.options.density)},
         {"threads", observer.context().threads}}},
+      {"preset", preset_of(report.chosen)},
+      {"error_bound", error_bound_of(report)},
       {"quads", v.quads},
       {"vertices", v.vertices},
       {"irregular_vertices", v.irregular_vertices},

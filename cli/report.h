@@ -1,10 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "chosen_options.h"
 #include "common_options.h"
 #include "observer.h"
+#include "quadrille/error_bound.h"
 #include "quadrille/metrics.h"
 #include "quadrille/render.h"
 #include "quadrille/vectorize.h"
@@ -23,7 +26,10 @@ Measurement measure(const VectorImage& image, const Raster& picture, Observer& o
 struct RunReport {
   std::filesystem::path source;
   const MeshOptions& options;
+  const ChosenOptions& chosen;
   const VectorizeReport& vectorization;
+  const std::vector<ErrorBoundRound>& rounds;  ///< of the search for the error; empty without one
+  std::optional<double> max_error;             ///< the wished one
   const Measurement& measurement;
   std::vector<std::filesystem::path> outputs;
   double seconds = 0;  ///< wall time of the whole run

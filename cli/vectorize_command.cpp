@@ -21,6 +21,7 @@ struct VectorizeRequest {
   std::vector<fs::path> outputs;
   fs::path report;
   double scale = 1;
+  std::optional<double> max_error;
   MeshOptions mesh;
   RunOptions run;
 };
@@ -34,6 +35,25 @@ void check_scale(const Raster& picture, double scale) {
   output_size(empty, options);  // throws when there is no such picture
 }
 
+/// With a bound on the error, --quads is the ceiling and the preset's number only the start.
+BoundedVectorization vectorize_within(const VectorizeRequest& request, const Raster& picture,
+                                      const VectorizeOptions& options, Observer& observer) {
+  ErrorBound bound;
+  bound.mae = *request.max_error;
+  bound.max_quads = request.mesh.quads.value_or(0);
+  BoundedVectorization bounded =
+      vectorize_picture_to_error(picture, request.input, bound, options, observer);
+  observer.tell(fmt::format("error bound {}: {:.2f} after {} rounds", bound.mae, bounded.mae,
+                            bounded.rounds.size()));
+  if (!bounded.met) {
+    observer.warn(
+        fmt::format("warning: '{}' keeps an error of {:.2f} with {} quads, above the {} asked for; "
+                    "allow more with --quads or a larger --max-error",
+                    request.input.string(), bounded.mae, bounded.result.report.quads, bound.mae));
+  }
+  return bounded;
+}
+
 int run_vectorize(const VectorizeRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   check_outputs(request.outputs, request.input, export_endings());
@@ -42,7 +62,14 @@ int run_vectorize(const VectorizeRequest& request) {
 
   const Raster picture = read_raster(request.input, observer);
   check_scale(picture, request.scale);
-  const Vectorization result = vectorize_picture(picture, request.input, request.mesh, observer);
+  MeshOptions mesh = request.mesh;
+  if (request.max_error) mesh.quads.reset();
+  const ChosenOptions chosen = choose_options(mesh, picture, observer);
+  const BoundedVectorization bounded =
+      request.max_error ? vectorize_within(request, picture, chosen.vectorize, observer)
+                        : BoundedVectorization{vectorize_picture(picture, request.input,
+                                                                 chosen.vectorize, observer)};
+  const Vectorization& result = bounded.result;
   ExportOptions options;
   options.raster.scale = request.scale;
   write_outputs(result.image, request.outputs, options, observer);
@@ -54,9 +81,9 @@ int run_vectorize(const VectorizeRequest& request) {
                             measurement.difference.psnr, measurement.difference.ssim));
   if (!request.report.empty()) {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    write_report(
-        {request.input, request.mesh, result.report, measurement, request.outputs, seconds.count()},
-        observer, request.report);
+    write_report({request.input, request.mesh, chosen, result.report, bounded.rounds,
+                  request.max_error, measurement, request.outputs, seconds.count()},
+                 observer, request.report);
   }
   return kSuccess;
 }
@@ -68,6 +95,13 @@ Action declare_vectorize(CLI::App& parser) {
   declare_input(parser, request->input, "picture to vectorize (PNG, JPEG, WebP, TIFF, ...)");
   declare_outputs(parser, request->outputs);
   declare_mesh_options(parser, request->mesh);
+  parser
+      .add_option("--max-error", request->max_error,
+                  "search the number of quads that this mean absolute error (0 to 255, as of "
+                  "compare) takes; --quads is then the most, by default one per 4 pixels up to "
+                  "200000")
+      ->check(positive_number())
+      ->check(CLI::Range(0.0, 255.0));
   parser.add_option("--scale", request->scale, "output pixels per source pixel, for pixel formats")
       ->check(positive_number())
       ->capture_default_str();

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "front_half.h"
 #include "own_process.h"
 #include "process_cost.h"
 #include "quadrille/image_file.h"
+#include "resample.h"
 
 namespace quadrille::bench {
 namespace {
@@ -20,19 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr double kPixelsPerQuad = 481.0 * 321 / 3000;
 constexpr double kLargePixels = 12e6;
-
-/// The picture at `factor` times its sides.
-Raster enlarged(const Raster& picture, double factor) {
-  Raster result(static_cast<int>(std::lround(factor * picture.width)),
-                static_cast<int>(std::lround(factor * picture.height)), picture.channels);
-  const int type = CV_32FC(picture.channels);
-  const cv::Mat source(picture.height, picture.width, type,
-                       const_cast<float*>(picture.data.data()));
-  cv::Mat target(result.height, result.width, type, result.data.data());
-  cv::resize(source, target, target.size(), 0, 0, cv::INTER_CUBIC);
-  for (float& sample : result.data) sample = std::clamp(sample, 0.0f, 1.0f);
-  return result;
-}
 
 /// The factor that gives the picture so many pixels; 1 when it has them.
 double enlargement(const Raster& picture, double pixels) {
@@ -44,7 +31,7 @@ template <class Factor>
 TableRow measure(const fs::path& path, const FrontHalfOptions& options, const Factor& factor) {
   Json json = run_in_own_process([&] {
     const Raster original = load_image(path);
-    const Raster picture = enlarged(original, factor(original));
+    const Raster picture = enlarged(original, factor(original), Interpolation::bicubic);
     Json figures = measure_front_half(picture, options).figures;
     figures["size"] = fmt::format("{}x{}", picture.width, picture.height);
     figures["peak_mb"] = peak_megabytes();

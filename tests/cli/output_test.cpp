@@ -203,8 +203,56 @@ TEST_F(Output, TheReportTellsEverything) {
   }
   EXPECT_EQ(report["cross_field"][2]["misalignment_degrees"], report["misalignment_degrees"]);
   EXPECT_EQ(report["options"]["field"], "smooth");
+  EXPECT_TRUE(report["error_bound"].is_null());
   ASSERT_FALSE(report["stages"].empty());
   for (const auto& stage : report["stages"]) EXPECT_GE(stage["seconds"].get<double>(), 0);
+}
+
+TEST_F(Output, ThePresetIsChosenByContentOrNamed) {
+  const fs::path folder = fresh_folder("preset");
+  const auto report_of = [&](const std::string& name, const std::vector<std::string>& options) {
+    expect_silent_success(
+        quadrille(join({sample(name), "--lattice", "-o", (folder / "a.quad").string(), "--report",
+                        (folder / "r.json").string()},
+                       options)));
+    return nlohmann::json::parse(bytes_of(folder / "r.json"));
+  };
+  const auto flat = report_of("formats/uniform_gray.png", {});
+  EXPECT_EQ(flat["options"]["preset"], "auto");
+  EXPECT_EQ(flat["preset"]["name"], "graphic");
+  EXPECT_EQ(flat["preset"]["flat_share"], 1);
+  EXPECT_EQ(flat["preset"]["main_colors"], 1);
+  EXPECT_EQ(flat["options"]["quads"], 2100);
+  const auto draft = report_of("formats/uniform_gray.png", {"--preset", "draft"});
+  EXPECT_EQ(draft["preset"]["name"], "draft");
+  EXPECT_FALSE(draft["preset"].contains("flat_share"));
+  EXPECT_EQ(draft["options"]["quads"], 300);
+  EXPECT_EQ(report_of("formats/coast_progressive.jpg", {})["preset"]["name"], "photo");
+  const auto counted =
+      report_of("formats/coast_progressive.jpg", {"--preset", "fine", "--quads", "150"});
+  EXPECT_EQ(counted["preset"]["name"], "fine");
+  EXPECT_EQ(counted["options"]["quads"], 150);
+}
+
+TEST_F(Output, TheErrorKeepsWithinItsBound) {
+  const fs::path folder = fresh_folder("max_error");
+  const auto run_with = [&](const std::string& error, const std::string& quads) {
+    return quadrille({picture(), "--lattice", "--max-error", error, "--quads", quads, "-o",
+                      (folder / "a.quad").string(), "--report", (folder / "r.json").string()});
+  };
+  const auto report = [&] { return nlohmann::json::parse(bytes_of(folder / "r.json")); };
+  expect_silent_success(run_with("12", "5000"));
+  EXPECT_EQ(report()["error_bound"]["met"], true);
+  EXPECT_EQ(report()["error_bound"]["wished"], 12);
+  EXPECT_LE(report()["mae"].get<double>(), 12);
+  EXPECT_FALSE(report()["error_bound"]["rounds"].empty());
+  EXPECT_LE(report()["quads"].get<int>(), 5000 * 1.05);
+
+  const CommandResult missed = run_with("0.01", "100");
+  EXPECT_EQ(missed.exit_code, 0);
+  EXPECT_TRUE(is_one_complaint(missed.err)) << missed.err;
+  EXPECT_THAT(missed.err, HasSubstr("warning"));
+  EXPECT_EQ(report()["error_bound"]["met"], false);
 }
 
 TEST_F(Output, TheLatticeHasNoIrregularVertex) {
@@ -243,7 +291,7 @@ TEST_F(Output, VerboseTellsAStageALine) {
       quadrille({picture(), "-o", (folder / "a.svg").string(), "--quads", "200", "-v"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.out, "");
-  for (const char* stage : {"read", "cross field", "write .svg", "MAE"}) {
+  for (const char* stage : {"read", "preset photo", "cross field", "write .svg", "MAE"}) {
     EXPECT_THAT(result.err, HasSubstr(stage));
   }
   EXPECT_EQ(result.err.find('\r'), std::string::npos);

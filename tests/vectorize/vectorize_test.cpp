@@ -155,6 +155,29 @@ TEST(LatticeMesh, TilesTheRectangleWithAboutTheWishedCount) {
 
 TEST(Vectorize, RefusesNonsense) { EXPECT_THROW(vectorize(Raster(4, 4, 3), {.quads = 0}), Error); }
 
+TEST(Vectorize, RefusesOptionsOutOfRangeOfStagesThatALatticeLeavesOut) {
+  const auto refused = [](const auto& spoil) {
+    VectorizeOptions options;
+    options.lattice = true;
+    spoil(options);
+    try {
+      quadrangulate(Raster(40, 40, 3), options);
+      return false;
+    } catch (const Error& error) {
+      return error.code() == ErrorCode::invalid_argument;
+    }
+  };
+  EXPECT_FALSE(refused([](VectorizeOptions&) {}));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.cross_field.alignment = 1e9; }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.cross_field.cancelling_radius = -1; }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.scale.min_ratio = 0; }));
+  EXPECT_TRUE(refused(
+      [](VectorizeOptions& o) { o.scale.max_ratio = std::numeric_limits<double>::infinity(); }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.position.sweeps = -1; }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.position.feature_weight = 2; }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.snap.rounds = -1; }));
+}
+
 TEST(Vectorize, StopsWhenTheObserverSaysSo) {
   RunContext context;
   context.on_progress = [](const std::string&, double) { return false; };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cancel_singularities.h"
+#include "option_checks.h"
 #include "paper_field.h"
 #include "quadrille/error.h"
 
@@ -15,24 +16,6 @@ using Complex = std::complex<float>;
 // Full multigrid and one more cycle, then a cycle a round: solving to the last digit changes
 // neither the number of singularities nor the misalignment.
 constexpr int kFirstCycles = 1, kRoundCycles = 1;
-// Heavier data leaves nothing to smooth, and single precision no room.
-constexpr int kMaxWeight = 1000;
-
-void check(const CrossFieldOptions& options) {
-  const auto weight = [](double w) { return w > 0 && w <= kMaxWeight; };
-  if (!weight(options.alignment) || !weight(options.renormalizing_weight)) {
-    throw Error(ErrorCode::invalid_argument,
-                "the cross field's weights must be positive and at most " +
-                    std::to_string(kMaxWeight) + "; use an alignment such as 0.2");
-  }
-  if (options.renormalizing_rounds < 0 || options.cancelling_radius < 0 ||
-      options.cancelling_radius > kMaxCancellingRadius || !(options.cancelling_allowance >= 0)) {
-    throw Error(ErrorCode::invalid_argument,
-                "the cross field's renormalising rounds, cancelling radius (at most " +
-                    std::to_string(kMaxCancellingRadius) +
-                    ") and cancelling allowance must not be negative");
-  }
-}
 
 /// The steps of cross_field(), with what they share.
 class Phases {
@@ -118,9 +101,26 @@ class Phases {
 
 }  // namespace
 
+void check_options(const CrossFieldOptions& options) {
+  const auto weight = [](double w) { return w > 0 && w <= kMaxAlignment; };
+  if (!weight(options.alignment) || !weight(options.renormalizing_weight)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the cross field's weights must be positive and at most " +
+                    std::to_string(static_cast<int>(kMaxAlignment)) +
+                    "; use an alignment such as 0.2");
+  }
+  if (options.renormalizing_rounds < 0 || options.cancelling_radius < 0 ||
+      options.cancelling_radius > kMaxCancellingRadius || !(options.cancelling_allowance >= 0)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the cross field's renormalising rounds, cancelling radius (at most " +
+                    std::to_string(kMaxCancellingRadius) +
+                    ") and cancelling allowance must not be negative");
+  }
+}
+
 CrossField cross_field(const FeatureTensor& features, const CrossFieldOptions& options,
                        const RunContext& context) {
-  check(options);
+  check_options(options);
   Phases phases(features, options, context);
   if (options.method == CrossFieldMethod::paper) {
     phases.follow_paper();

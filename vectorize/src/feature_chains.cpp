@@ -8,6 +8,7 @@
 #include "chain_network.h"
 #include "chain_separation.h"
 #include "chain_tracing.h"
+#include "option_checks.h"
 #include "parallel.h"
 #include "premultiplied_colours.h"
 #include "quadrille/error.h"
@@ -23,16 +24,6 @@ constexpr double kLeastSeparation = 0.8;  // pixels
 constexpr double kLeastDepth = 0.5;       // of a basin, of the pass out of it
 constexpr double kSidesPerPixel = 1.2;    // of a staircase, per length; a mean over directions
 constexpr float kNoise = 0.02f;           // gradients below it, per pixel, count as flat
-
-void check(const ChainOptions& options) {
-  const auto is_good = [](double v) { return v > 0 && std::isfinite(v); };
-  if (!is_good(options.contrast) || !is_good(options.weak_contrast) ||
-      !(options.sharpness >= 0 && options.sharpness <= 1) || !(options.min_length >= 0)) {
-    throw Error(ErrorCode::invalid_argument,
-                "feature chains need positive contrasts, a sharpness between 0 and 1, and a "
-                "length of at least 0");
-  }
-}
 
 /// Norm of the differences over a pixel at the centres of the cells, per pixel, each a mean over
 /// half a pixel on either side (Sobel's), without which it undulates along oblique edges.
@@ -70,10 +61,20 @@ FieldGrid<unsigned char> levels(const FieldGrid<float>& gradient) {
 
 }  // namespace
 
+void check_options(const ChainOptions& options) {
+  const auto is_good = [](double v) { return v > 0 && std::isfinite(v); };
+  if (!is_good(options.contrast) || !is_good(options.weak_contrast) ||
+      !(options.sharpness >= 0 && options.sharpness <= 1) || !(options.min_length >= 0)) {
+    throw Error(ErrorCode::invalid_argument,
+                "feature chains need positive contrasts, a sharpness between 0 and 1, and a "
+                "length of at least 0");
+  }
+}
+
 ChainNetwork feature_chains(const Raster& picture, const ChainOptions& options,
                             const RunContext& context) {
   check_raster(picture);
-  check(options);
+  check_options(options);
   context.progress("chains", 0);
   const int fineness = 1LL * picture.width * picture.height <= kFinePixels ? 2 : 1;
   const FieldGrid<float> gradient = gradient_norm(picture, fineness, context);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "corner_sines.h"
+#include "option_checks.h"
 #include "parallel.h"
 #include "premultiplied_colours.h"
 #include "quadrille/error.h"
@@ -183,13 +184,17 @@ void move_vertex(QuadMesh& mesh, int v, const Matrix2d& matrix, const Vector2d& 
 
 }  // namespace
 
-void snap_to_features(QuadMesh& mesh, const Raster& picture, const SnapOptions& options,
-                      const RunContext& context) {
-  check_raster(picture);
+void check_options(const SnapOptions& options) {
   if (options.rounds < 0 || !(options.min_corner_sine > 0 && options.min_corner_sine < 1)) {
     throw Error(ErrorCode::invalid_argument,
                 "snapping needs a number of rounds and a corner sine between 0 and 1");
   }
+}
+
+void snap_to_features(QuadMesh& mesh, const Raster& picture, const SnapOptions& options,
+                      const RunContext& context) {
+  check_raster(picture);
+  check_options(options);
   const Colours colours(picture);
   std::vector<Colour> means(mesh.quad_count());
   std::vector<Pull> pulls(mesh.edge_count());

@@ -7,7 +7,9 @@
 
 #include "lattice_shift.h"
 #include "metric_field.h"
+#include "option_checks.h"
 #include "position_level.h"
+#include "quadrille/error.h"
 
 namespace quadrille {
 namespace {
@@ -109,9 +111,17 @@ void start_from(const PositionLevel& coarse, PositionLevel& fine) {
 
 }  // namespace
 
+void check_options(const PositionOptions& options) {
+  if (options.sweeps < 0 || !(options.feature_weight >= 0 && options.feature_weight <= 1)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the position field needs a number of sweeps and a feature weight from 0 to 1");
+  }
+}
+
 PositionField position_field(const FeatureTensor& features, const CrossField& field,
                              const ScaleField& scale, const PositionOptions& options,
                              const RunContext& context) {
+  check_options(options);
   const int width = field.z.width, height = field.z.height;
   std::vector<PositionLevel> levels;
   levels.push_back(

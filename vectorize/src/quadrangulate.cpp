@@ -6,6 +6,7 @@
 #include "count_meshing.h"
 #include "meshed_region.h"
 #include "opaque_picture.h"
+#include "option_checks.h"
 #include "quadrille/error.h"
 #include "quadrille/mesh_region.h"
 #include "quadrille/vectorize.h"
@@ -28,6 +29,15 @@ void check(const VectorizeOptions& options) {
     throw Error(ErrorCode::limit_exceeded, "the number of quads is " +
                                                std::to_string(options.quads) +
                                                "; ask for at most " + std::to_string(kMaxQuads));
+  }
+  check_options(options.cross_field);
+  check_options(options.scale);
+  check_options(options.position);
+  check_options(options.snap);
+  check_options(options.chains);
+  if (!(options.chain_share >= 0 && options.chain_share <= 1) || !(options.least_chain_gain >= 0)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the share of vertices on chains is from 0 to 1, and the least gain at least 0");
   }
 }
 

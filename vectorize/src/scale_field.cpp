@@ -9,6 +9,7 @@
 #include "length_smoothing.h"
 #include "metric_field.h"
 #include "opencv_errors.h"
+#include "option_checks.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
@@ -18,18 +19,15 @@ constexpr double kWindow = 0.35;        // sigma of the window of the colour cha
 constexpr double kCoarsePerEdge = 3.5;  // pixels of the smoothing's grid per edge
 constexpr double kIsotropicRadius = 1;  // around singularities, in edges
 
-void check(const ScaleOptions& options, const FeatureTensor& features, double edge) {
-  const auto& density = options.density;
-  const bool map_fits = density.data.empty() || (density.width == features.weight.width &&
-                                                 density.height == features.weight.height);
-  const bool map_positive = std::all_of(density.data.begin(), density.data.end(),
-                                        [](float d) { return d > 0 && std::isfinite(d); });
-  if (!(edge > 0) || !(options.grading >= 0) || !(options.flat_share > 0) ||
-      !(options.min_ratio > 0 && options.min_ratio <= 1) || !(options.max_ratio >= 1) ||
-      !(options.max_anisotropy >= 1) || !(options.reach >= 0) || !map_fits || !map_positive) {
-    throw Error(ErrorCode::invalid_argument,
-                "the scale field's options are out of range; see ScaleOptions");
-  }
+[[noreturn]] void refuse() {
+  throw Error(ErrorCode::invalid_argument,
+              "the scale field's options are out of range; see ScaleOptions");
+}
+
+void check_size(const FieldGrid<float>& density, const FeatureTensor& features, double edge) {
+  const bool fits = density.data.empty() || (density.width == features.weight.width &&
+                                             density.height == features.weight.height);
+  if (!(edge > 0) || !fits) refuse();
 }
 
 /// The structure tensor of the colour change, smoothed over a window.
@@ -149,9 +147,23 @@ std::array<double, 2> whole_cells(double across, double down, double stretch_cos
 
 }  // namespace
 
+void check_options(const ScaleOptions& options) {
+  const auto from = [](double least, double value) {
+    return value >= least && std::isfinite(value);
+  };
+  const bool map_positive = std::all_of(options.density.data.begin(), options.density.data.end(),
+                                        [](float d) { return d > 0 && std::isfinite(d); });
+  if (!from(0, options.grading) || !(options.flat_share > 0) ||
+      !(options.min_ratio > 0 && options.min_ratio <= 1) || !from(1, options.max_ratio) ||
+      !from(1, options.max_anisotropy) || !from(0, options.reach) || !map_positive) {
+    refuse();
+  }
+}
+
 ScaleField relative_scale(const FeatureTensor& features, const CrossField& field, double edge,
                           const ScaleOptions& options, const RunContext& context) {
-  check(options, features, edge);
+  check_options(options);
+  check_size(options.density, features, edge);
   context.progress("scale field", 0);
   return with_opencv_errors([&] { return compute(features, field, edge, options, context); });
 }

@@ -47,9 +47,12 @@ enum class CrossFieldMethod {
   paper,
 };
 
+/// Heavier alignment leaves nothing to smooth, and single precision no room.
+inline constexpr double kMaxAlignment = 1000;
+
 struct CrossFieldOptions {
   CrossFieldMethod method = CrossFieldMethod::smooth;
-  /// lambda, the weight of alignment to features against smoothness, in (0, 1000].
+  /// lambda, the weight of alignment to features against smoothness, in (0, kMaxAlignment].
   double alignment = 0.2;
   /// Rounds of renormalisation after the linear solve, and the weight mu of the pull toward unit
   /// length; they remove 10 to 60 % of the singularities.

@@ -13,12 +13,13 @@ struct PositionField {
 };
 
 struct PositionOptions {
-  int sweeps = 4;               ///< smoothing sweeps per level of the hierarchy
+  int sweeps = 4;               ///< smoothing sweeps per level of the hierarchy, >= 0
   double feature_weight = 0.2;  ///< c of the projection onto features, 0 to 1
 };
 
 /// Hierarchical smoothing of Eq. 9 over the 8-neighbourhood with intrinsic rounding, border and
-/// corner constraints, and the projection of Eq. 10 on features.
+/// corner constraints, and the projection of Eq. 10 on features. Throws Error{invalid_argument} for
+/// options outside their ranges.
 PositionField position_field(const FeatureTensor& features, const CrossField& field,
                              const ScaleField& scale, const PositionOptions& options = {},
                              const RunContext& context = {});
