@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fit_element.h"
+#include "element_lanes.h"
 #include "quadrille/patch_mesh.h"
 #include "quadrille/raster.h"
 #include "quadrille/run_context.h"
@@ -34,11 +34,13 @@ class ColorSystem {
   void assemble(const PatchMesh& patches, const Raster& picture, double regularization,
                 const RunContext& context);
   void invert_blocks();
+  template <class Body>
+  void for_each_group(const Body& body);
 
-  std::vector<int> wedge_of_corner_;
+  int channels_;
   WedgeCorners wedge_corners_;
-  std::vector<PatchElement> elements_;
-  std::vector<CornerUnknowns> scratch_;  // per patch
+  std::vector<ElementGroup> groups_;
+  std::vector<CornerUnknowns> scratch_;  // per patch, and for the empty places of the last group
   std::vector<Eigen::Matrix4f> inverse_blocks_;
 };
 
