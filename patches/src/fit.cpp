@@ -38,16 +38,7 @@ FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
                                    const FitOptions& options, const RunContext& context) {
   ColorSystem system(patches, picture, options.regularization, context);
   FitReport report;
-  const ColorSystem::Vector correction = solve(system, options, context, report);
-  for_each_range(static_cast<int>(correction.size()), [&](int begin, int end) {
-    for (int w = begin; w < end; ++w) {
-      Wedge& wedge = patches.wedges[w];
-      wedge.value += correction[w].col(0).array();
-      wedge.dx += correction[w].col(1).array();
-      wedge.dy += correction[w].col(2).array();
-      wedge.twist += correction[w].col(3).array();
-    }
-  });
+  add_correction(solve(system, options, context, report), patches.wedges);
   return report;
 }
 

@@ -79,4 +79,22 @@ void add_batch(const ControlColors& model, int channels, const FitBatch& batch, 
   }
 }
 
+QUADRILLE_MULTIVERSION
+void evaluate_batch(const ControlColors& model, int channels, int count, const float* u,
+                    const float* v, float (&colors)[4][FitBatch::kSize]) {
+  for (int i = 0; i < count; i += kLaneCount) {
+    Lanes at_u, at_v, bu[4], bv[4];
+    load(u + i, at_u);
+    load(v + i, at_v);
+    cubic_bernstein(at_u, bu);
+    cubic_bernstein(at_v, bv);
+    for (int c = 0; c < channels; ++c) {
+      const Lanes zero = {};
+      Lanes negative;
+      difference(model[c], bu, bv, zero, negative);
+      store(-negative, colors[c] + i);
+    }
+  }
+}
+
 }  // namespace quadrille

@@ -27,4 +27,9 @@ struct FitSums {
 /// in float, always in the same order.
 void add_batch(const ControlColors& model, int channels, const FitBatch& batch, FitSums& sums);
 
+/// The colours of the model at `count` parameters, a multiple of kLaneCount and at most
+/// FitBatch::kSize.
+void evaluate_batch(const ControlColors& model, int channels, int count, const float* u,
+                    const float* v, float (&colors)[4][FitBatch::kSize]);
+
 }  // namespace quadrille

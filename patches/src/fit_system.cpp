@@ -51,12 +51,6 @@ double quad_area(const QuadMesh& mesh, int q) {
   return std::abs(0.5 * (d.x() * e.y() - d.y() * e.x()));
 }
 
-void to_channels(const BicubicBezier<Color>& colors, ControlColors& model) {
-  for (int k = 0; k < 16; ++k) {
-    for (int c = 0; c < 4; ++c) model[c][k] = colors.control[k / 4][k % 4][c];
-  }
-}
-
 WedgeUnknowns unknowns_of(const Wedge& w) {
   WedgeUnknowns x;
   x.col(0) = w.value;
@@ -68,15 +62,38 @@ WedgeUnknowns unknowns_of(const Wedge& w) {
 
 }  // namespace
 
+void control_colors(const PatchMesh& patches, int q, const std::array<CornerMap, 4>& corners,
+                    ControlColors& control) {
+  CornerUnknowns x;
+  for (int k = 0; k < 4; ++k) {
+    x[k] = unknowns_of(patches.wedges[patches.wedge_of_corner[4 * q + k]]);
+  }
+  const BicubicBezier<Color> bezier = colors_of(corners, x);
+  for (int k = 0; k < 16; ++k) {
+    for (int c = 0; c < 4; ++c) control[c][k] = bezier.control[k / 4][k % 4][c];
+  }
+}
+
+void add_correction(const ColorSystem::Vector& correction, std::vector<Wedge>& wedges) {
+  for_each_range(static_cast<int>(wedges.size()), [&](int begin, int end) {
+    for (int w = begin; w < end; ++w) {
+      wedges[w].value += correction[w].col(0).array();
+      wedges[w].dx += correction[w].col(1).array();
+      wedges[w].dy += correction[w].col(2).array();
+      wedges[w].twist += correction[w].col(3).array();
+    }
+  });
+}
+
 ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, double regularization,
-                         const RunContext& context)
+                         const RunContext& context, std::vector<SampleBlock>* keep)
     : right_hand_side(patches.wedges.size()),
       channels_(picture.channels),
       wedge_corners_(patches),
       groups_(padded_count(patches.patch_count()) / kLaneCount),
       scratch_(padded_count(patches.patch_count())),
       inverse_blocks_(patches.wedges.size()) {
-  assemble(patches, picture, regularization, context);
+  assemble(patches, picture, regularization, context, keep);
   for_each_range(wedge_count(), [&](int begin, int end) {
     for (int w = begin; w < end; ++w) {
       right_hand_side[w].setZero();
@@ -87,20 +104,17 @@ ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, double
 }
 
 void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, double regularization,
-                           const RunContext& context) {
+                           const RunContext& context, std::vector<SampleBlock>* keep) {
   context.progress("fit", 0);
+  if (keep) keep->resize(sample_block_count(patches));
   const PatchScan scan(patches, SampleGrid{});
   tbb::parallel_for(0, sample_block_count(patches), [&](int block) {
-    const SampleBlock samples = find_samples(patches, scan, picture, block);
+    SampleBlock samples = find_samples(patches, scan, picture, block);
     for (int local = 0; local < samples.patch_count(); ++local) {
       const int q = samples.first_patch + local;
       const std::array<CornerMap, 4> corners = corner_maps(patches, q);
-      CornerUnknowns start;
-      for (int k = 0; k < 4; ++k) {
-        start[k] = unknowns_of(patches.wedges[patches.wedge_of_corner[4 * q + k]]);
-      }
       ControlColors model;
-      to_channels(colors_of(corners, start), model);
+      control_colors(patches, q, corners, model);
       FitSums sums{};
       const auto damping = uniform_moments(regularization * quad_area(patches.mesh, q));
       std::copy(damping.begin(), damping.end(), sums.moments);
@@ -115,6 +129,7 @@ void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, doub
       }
       scratch_[q] = transpose_of(corners, gradient);
     }
+    if (keep) (*keep)[block] = std::move(samples);
   });
   context.progress("fit", 0.5);
 }
