@@ -13,7 +13,7 @@
 namespace quadrille {
 namespace {
 
-constexpr double kTolerance = 1e-2;
+constexpr double kTolerance = 0.1;
 constexpr int kMaxIterations = 60;
 /// Keeps vertices in flat parts of a picture defined; squared gradients of one 8-bit step in 100
 /// pixels.
@@ -22,18 +22,25 @@ constexpr float kStiffnessFloor = 1e-9f;
 /// Whether corner k lies at parameter 1.
 constexpr int kAtU[4] = {0, 1, 1, 0}, kAtV[4] = {0, 0, 1, 1};
 
-/// Difference of the two neighbours, divided by their distance; at the picture's sides the pixel
-/// stands for the one that is missing.
-void add_gradient(const Raster& mean, int x, int y, int i, MotionBatch& batch) {
-  const int left = std::max(x - 1, 0), right = std::min(x + 1, mean.width - 1);
-  const int above = std::max(y - 1, 0), below = std::min(y + 1, mean.height - 1);
-  const float across = 1.0f / static_cast<float>(std::max(right - left, 1));
-  const float down = 1.0f / static_cast<float>(std::max(below - above, 1));
-  const float *const l = mean.pixel(left, y), *const r = mean.pixel(right, y);
-  const float *const a = mean.pixel(x, above), *const b = mean.pixel(x, below);
-  for (int c = 0; c < mean.channels; ++c) {
+/// The samples of one pixel for the batch: the residual, and the gradient of `mean` as the
+/// difference of two neighbours over their distance; at the picture's sides the pixel itself stands
+/// for the neighbour that is missing.
+void add_pixel(const Raster& picture, const Raster& mean, std::size_t pixel, int x, int y, int i,
+               MotionBatch& batch) {
+  const int channels = mean.channels;
+  const std::ptrdiff_t row = std::ptrdiff_t{1} * mean.width * channels;
+  const float* const here = mean.data.data() + pixel * channels;
+  const bool left = x > 0, right = x + 1 < mean.width, above = y > 0, below = y + 1 < mean.height;
+  const float* const l = here - (left ? channels : 0);
+  const float* const r = here + (right ? channels : 0);
+  const float* const a = here - (above ? row : 0);
+  const float* const b = here + (below ? row : 0);
+  const float across = left && right ? 0.5f : 1.0f, down = above && below ? 0.5f : 1.0f;
+  const Color color = premultiplied_pixel(picture, pixel);
+  for (int c = 0; c < channels; ++c) {
     batch.gradient[c][0][i] = (r[c] - l[c]) * across;
     batch.gradient[c][1][i] = (b[c] - a[c]) * down;
+    batch.residual[c][i] = 2 * (color[c] - here[c]);
   }
 }
 
@@ -41,29 +48,37 @@ void add_gradient(const Raster& mean, int x, int y, int i, MotionBatch& batch) {
 void add_samples(const SampleBlock& samples, int local, const Raster& picture, const Raster& mean,
                  MotionSums& sums) {
   MotionBatch batch;
-  const auto width = static_cast<std::uint32_t>(picture.width);
-  const std::size_t last = samples.begin[local + 1];
-  for (std::size_t first = samples.begin[local]; first < last; first += FitBatch::kSize) {
-    const int count = static_cast<int>(std::min<std::size_t>(FitBatch::kSize, last - first));
-    batch.count = padded_count(count);
-    for (int i = 0; i < batch.count; ++i) {
-      const std::size_t sample = first + std::min(i, count - 1);
-      batch.u[i] = samples.u[sample];
-      batch.v[i] = samples.v[sample];
-      const std::uint32_t pixel = samples.pixel[sample];
-      const bool counts = i < count && pixel != SampleBlock::kNoPixel;
-      batch.weight[i] = counts ? 1.0f : 0.0f;
-      const int x = counts ? static_cast<int>(pixel % width) : 0;
-      const int y = counts ? static_cast<int>(pixel / width) : 0;
-      add_gradient(mean, x, y, i, batch);
-      const Color color = premultiplied_pixel(picture, x, y);
-      const float* const between = mean.pixel(x, y);
+  const auto flush = [&] {
+    const int padded = padded_count(batch.count);
+    for (int i = batch.count; i < padded; ++i) {
+      batch.u[i] = batch.v[i] = batch.weight[i] = 0;
       for (int c = 0; c < picture.channels; ++c) {
-        batch.residual[c][i] = 2 * (color[c] - between[c]);
+        batch.residual[c][i] = batch.gradient[c][0][i] = batch.gradient[c][1][i] = 0;
       }
     }
+    batch.count = padded;
     add_batch(picture.channels, batch, sums);
+    batch.count = 0;
+  };
+  const auto width = static_cast<std::uint32_t>(picture.width);
+  std::uint32_t expected = SampleBlock::kNoPixel;
+  int x = 0, y = 0;
+  for (std::size_t sample = samples.begin[local]; sample < samples.begin[local + 1]; ++sample) {
+    const std::uint32_t pixel = samples.pixel[sample];
+    if (pixel == SampleBlock::kNoPixel) continue;
+    ++x;
+    if (pixel != expected || x == picture.width) {
+      x = static_cast<int>(pixel % width);
+      y = static_cast<int>(pixel / width);
+    }
+    expected = pixel + 1;
+    batch.u[batch.count] = samples.u[sample];
+    batch.v[batch.count] = samples.v[sample];
+    batch.weight[batch.count] = 1;
+    add_pixel(picture, mean, pixel, x, y, batch.count, batch);
+    if (++batch.count == FitBatch::kSize) flush();
   }
+  if (batch.count > 0) flush();
 }
 
 double dot(const WedgeUnknowns& a, const WedgeUnknowns& b) {
@@ -113,8 +128,7 @@ void JointSystem::assemble_block(const SampleBlock& samples, const Raster& pictu
             static_cast<float>(-sums.force[k][d] - shape_weight * shape.gradient[row]);
         for (int l = 0; l < 4; ++l) {
           for (int e = 0; e < 2; ++e) {
-            const double data =
-                sums.stiffness[d + e][3 * (kAtV[k] + kAtV[l]) + kAtU[k] + kAtU[l]];
+            const double data = sums.stiffness[d + e][3 * (kAtV[k] + kAtV[l]) + kAtU[k] + kAtU[l]];
             group.stiffness[8 * row + 2 * l + e][lane] =
                 static_cast<float>(data + shape_weight * shape.matrix(row, 2 * l + e));
           }
@@ -169,17 +183,16 @@ double JointSystem::multiply(const JointVector& x, float damping, JointVector& p
                           &move_parts_[g * kLaneCount]);
     }
   });
-  const double of_colors =
-      sum_over_ranges(colors_.wedge_count(), 0.0, [&](int begin, int end) {
-        double sum = 0;
-        for (int w = begin; w < end; ++w) {
-          for (const int h : colors_.wedge_corners()[w]) {
-            product.colors[w] += color_parts_[h >> 2][h & 3];
-          }
-          sum += dot(x.colors[w], product.colors[w]);
-        }
-        return sum;
-      });
+  const double of_colors = sum_over_ranges(colors_.wedge_count(), 0.0, [&](int begin, int end) {
+    double sum = 0;
+    for (int w = begin; w < end; ++w) {
+      for (const int h : colors_.wedge_corners()[w]) {
+        product.colors[w] += color_parts_[h >> 2][h & 3];
+      }
+      sum += dot(x.colors[w], product.colors[w]);
+    }
+    return sum;
+  });
   const QuadMesh& mesh = patches_.mesh;
   return of_colors + sum_over_ranges(mesh.vertex_count(), 0.0, [&](int begin, int end) {
            double sum = 0;

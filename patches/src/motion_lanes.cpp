@@ -24,7 +24,8 @@ QUADRILLE_INLINE void powers(const Lanes& t, Lanes (&linear)[2], Lanes (&quadrat
 QUADRILLE_MULTIVERSION
 void add_batch(int channels, const MotionBatch& batch, MotionSums& sums) {
   const int groups = batch.count / kLaneCount;
-  Lanes linear_u[kGroups][2], linear_v[kGroups][2], quadratic_u[kGroups][3], quadratic_v[kGroups][3];
+  Lanes linear_u[kGroups][2], linear_v[kGroups][2], quadratic_u[kGroups][3],
+      quadratic_v[kGroups][3];
   Lanes quartic_u[kGroups][5], quartic_v[kGroups][5];
   Lanes gradient[4][2][kGroups], product[3][kGroups], pull[2][kGroups];
   for (int g = 0; g < groups; ++g) {

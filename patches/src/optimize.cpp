@@ -23,8 +23,11 @@ namespace quadrille {
 namespace {
 
 constexpr double kFirstDamping = 0.3, kDampingOnSuccess = 0.4, kDampingOnFailure = 5;
+/// Shape energy in units of a mean quad's pixels times the root of the mean squared error; with it
+/// quads come out equally well shaped in calm and in busy pictures.
+constexpr double kShapeScale = 0.08;
 /// The colours of a round need not be better than its step.
-constexpr double kRoundTolerance = 1e-3;
+constexpr double kRoundTolerance = 3e-2;
 
 void check(const OptimizeOptions& options) {
   const auto reject = [](const std::string& message) {
@@ -55,12 +58,15 @@ double total_shape_energy(const QuadMesh& mesh) {
 /// Patches with the colours that fit best, and how well they do.
 class State {
  public:
-  /// The colours that the patches have are improved upon.
-  State(PatchMesh start, const Raster& picture, const FitOptions& fit, const RunContext& context)
+  /// The colours that the patches have are improved upon, or kept where `solved`.
+  State(PatchMesh start, bool solved, const Raster& picture, const FitOptions& fit,
+        const RunContext& context)
       : patches(std::move(start)), colors(patches, picture, fit.regularization, context, &samples) {
-    FitReport report;
-    add_correction(quadrille::solve(colors, fit, context, report), patches.wedges);
-    iterations = report.iterations;
+    if (!solved) {
+      FitReport report;
+      add_correction(quadrille::solve(colors, fit, context, report), patches.wedges);
+      iterations = report.iterations;
+    }
     show(picture);
     shape_energy = total_shape_energy(patches.mesh);
   }
@@ -153,15 +159,14 @@ OptimizeReport take_rounds(PatchMesh& patches, const Raster& picture,
   FitOptions round_fit = fit;
   round_fit.tolerance = std::max(fit.tolerance, kRoundTolerance);
 
-  auto state = std::make_unique<State>(patches, picture, round_fit, inner);
+  auto state = std::make_unique<State>(patches, true, picture, round_fit, inner);
   std::size_t sample_count = 0;
   for (const SampleBlock& block : state->samples) sample_count += block.pixel.size();
   const double values = static_cast<double>(sample_count) * picture.channels;
-  const double weight = options.shape_weight * static_cast<double>(sample_count) /
-                        patches.patch_count() / 50;
-
   OptimizeReport report;
   report.mse_before = report.mse_after = state->squared_error / values;
+  const double weight = options.shape_weight * kShapeScale * std::sqrt(report.mse_before) *
+                        static_cast<double>(sample_count) / patches.patch_count();
   std::optional<VertexGuides> guides;
   std::optional<JointSystem> system;
   double damping = kFirstDamping;
@@ -176,7 +181,7 @@ OptimizeReport take_rounds(PatchMesh& patches, const Raster& picture,
     JointVector step;
     round.joint_iterations = system->solve(damping, step);
     auto next = std::make_unique<State>(moved(*state, step, *guides, options.min_scaled_jacobian),
-                                        picture, round_fit, inner);
+                                        false, picture, round_fit, inner);
     round.color_iterations = next->iterations;
     round.accepted = next->squared_error + weight * next->shape_energy <
                      state->squared_error + weight * state->shape_energy;

@@ -46,9 +46,9 @@ ShapeDerivatives shape_derivatives(const QuadMesh& mesh, int q) {
     const double n = s.squaredNorm(), d = c.determinant;
     const Eigen::Vector4d gradient = s / d - by_sides * (n / (2 * d * d));
     const Eigen::Matrix4d cross = s * by_sides.transpose();
-    const Eigen::Matrix4d matrix =
-        Eigen::Matrix4d::Identity() / d - (cross + cross.transpose()) / (2 * d * d) +
-        by_sides * by_sides.transpose() * (n / (4 * d * d * d));
+    const Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity() / d -
+                                   (cross + cross.transpose()) / (2 * d * d) +
+                                   by_sides * by_sides.transpose() * (n / (4 * d * d * d));
     const std::array<int, 2> ends = {c.next, c.before};
     for (int i = 0; i < 2; ++i) {
       const auto part = gradient.segment<2>(2 * i);
