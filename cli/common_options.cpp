@@ -8,6 +8,11 @@
 #include "quadrille/image_file.h"
 
 namespace quadrille::cli {
+namespace {
+
+constexpr double kEditableShapeWeight = 0.08;
+
+}  // namespace
 
 Verbosity RunOptions::verbosity() const {
   if (quiet) return Verbosity::quiet;
@@ -30,6 +35,8 @@ VectorizeOptions MeshOptions::vectorize_options() const {
   VectorizeOptions options;
   options.quads = quads;
   options.fit.method = fit == "bessel" ? FitMethod::bessel : FitMethod::hermite;
+  options.optimize.rounds = optimize;
+  if (editable) options.optimize.shape_weight = kEditableShapeWeight;
   options.lattice = lattice;
   options.region = mesh == "opaque" ? MeshRegion::opaque : MeshRegion::whole;
   options.cross_field.alignment = alignment;
@@ -78,6 +85,14 @@ void declare_mesh_options(CLI::App& parser, MeshOptions& options) {
                   "(sampled at the vertices, as in the paper)")
       ->check(CLI::IsMember({"bessel", "hermite"}))
       ->capture_default_str();
+  parser
+      .add_option("--optimize", options.optimize,
+                  "rounds that move the vertices to where they reproduce the picture better, 0 for "
+                  "none; without effect on --fit bessel")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  parser.add_flag("--editable", options.editable,
+                  "keep the moved quads well-shaped, at the price of a little error");
 }
 
 void declare_input(CLI::App& parser, std::filesystem::path& input, const std::string& what) {
