@@ -14,9 +14,7 @@
 #include "quadrille/patch_geometry.h"
 
 namespace quadrille {
-namespace {
-
-void check(const PatchMesh& patches, const Raster& picture, const FitOptions& options) {
+void check_fit(const PatchMesh& patches, const Raster& picture, const FitOptions& options) {
   const auto reject = [](const std::string& message) {
     throw Error(ErrorCode::invalid_argument, message);
   };
@@ -34,6 +32,8 @@ void check(const PatchMesh& patches, const Raster& picture, const FitOptions& op
   }
 }
 
+namespace {
+
 FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
                                    const FitOptions& options, const RunContext& context) {
   ColorSystem system(patches, picture, options.regularization, context);
@@ -46,7 +46,7 @@ FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
 
 FitReport fit_colors(PatchMesh& patches, const Raster& picture, const FitOptions& options,
                      const RunContext& context) {
-  check(patches, picture, options);
+  check_fit(patches, picture, options);
   FitReport report;
   tbb::task_arena arena(arena_size(context));
   arena.execute([&] {

@@ -204,6 +204,7 @@ OptimizeReport optimize_vertices(PatchMesh& patches, const Raster& picture,
                                  const OptimizeOptions& options, const FitOptions& fit,
                                  const RunContext& context) {
   check(options);
+  check_fit(patches, picture, fit);
   OptimizeReport report;
   if (options.rounds == 0 || fit.method == FitMethod::bessel) return report;
   tbb::task_arena arena(arena_size(context));
