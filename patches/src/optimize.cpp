@@ -17,6 +17,7 @@
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
 #include "shape_energy.h"
+#include "torn_pixels.h"
 #include "vertex_steps.h"
 
 namespace quadrille {
@@ -99,6 +100,15 @@ void State::show(const Raster& picture) {
     }
   });
   for (const double e : errors) squared_error += e;
+  for (const TornPixel& torn : torn_pixels(patches, picture.width, picture.height)) {
+    const Color given = premultiplied_pixel(picture, torn.pixel);
+    for (int c = 0; c < picture.channels; ++c) {
+      float& between = mean.data[std::size_t{torn.pixel} * picture.channels + c];
+      const double before = 2 * (given[c] - between), now = given[c] - torn.color[c];
+      squared_error += now * now - before * before;
+      between = 0.5f * (given[c] + torn.color[c]);
+    }
+  }
 }
 
 double State::show_patch(const SampleBlock& block, int local, const Raster& picture) {

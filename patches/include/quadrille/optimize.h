@@ -37,7 +37,8 @@ struct OptimizeReport {
 /// Moves the vertices so that the patches, with the colours that fit best, reproduce the picture
 /// better, by joint Gauss-Newton steps on colours and positions with the damping of Levenberg and
 /// Marquardt (Nocedal, Wright, Numerical Optimization, section 10.3). The derivative by a position
-/// is the central difference of the mean of the picture and what the patches show. Beside the
+/// is the central difference of the mean of the picture and what the patches show, tears
+/// box-filtered as render() does, so that their jumps count. Beside the
 /// squared error the steps lower `shape_weight` times the sum over all corners of
 /// (|a|^2 + |b|^2) / (2 det(a, b)), where a and b are the sides that meet there, in units of the
 /// squared error of a mean quad. A step is taken when it lowers the sum.
