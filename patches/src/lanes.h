@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdlib>  // defines __GLIBC__
+
 // Functions that work on lanes are compiled for several instruction sets, and the best one that the
 // machine has is chosen when the program starts. Without fused multiply-adds they give the same
 // bits. Sanitizers cannot start with such functions.
