@@ -7,6 +7,8 @@
 namespace quadrille::cli {
 namespace {
 
+constexpr double kEditableShapeWeight = 0.08;
+
 std::string reason(const Content& content) {
   std::string text =
       fmt::format("{:.0f} % flat, {} colours", 100 * content.flat_share, content.main_colors);
@@ -31,6 +33,8 @@ ChosenOptions choose_options(const MeshOptions& mesh, const Raster& picture, Obs
   options.fit.method = mesh.fit == "bessel"      ? FitMethod::bessel
                        : mesh.fit == "bessel-ls" ? FitMethod::bessel_ls
                                                  : FitMethod::hermite;
+  options.optimize.rounds = mesh.optimize;
+  if (mesh.editable) options.optimize.shape_weight = kEditableShapeWeight;
   options.lattice = mesh.lattice;
   options.region = mesh.mesh == "opaque" ? MeshRegion::opaque : MeshRegion::whole;
   options.cross_field.alignment = mesh.alignment;

@@ -92,6 +92,14 @@ void declare_mesh_options(CLI::App& parser, MeshOptions& options) {
                   "paper)")
       ->check(CLI::IsMember({"bessel", "bessel-ls", "hermite"}))
       ->capture_default_str();
+  parser
+      .add_option("--optimize", options.optimize,
+                  "rounds that move the vertices to where they reproduce the picture better, 0 for "
+                  "none; without effect on --fit bessel")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  parser.add_flag("--editable", options.editable,
+                  "keep the moved quads well-shaped, at the price of a little error");
 }
 
 void declare_input(CLI::App& parser, std::filesystem::path& input, const std::string& what) {

@@ -26,6 +26,8 @@ struct MeshOptions {
   std::string preset = "auto";
   std::optional<int> quads;  ///< absent: the preset's
   std::string fit = "hermite";
+  int optimize = OptimizeOptions{}.rounds;
+  bool editable = false;
   bool lattice = false;
   std::string mesh = "whole";
   double alignment = CrossFieldOptions{}.alignment;
@@ -34,7 +36,7 @@ struct MeshOptions {
 };
 /// --preset, --quads, --lattice, --mesh, --alignment, --field and --density.
 void declare_quad_options(CLI::App& parser, MeshOptions& options);
-/// These and --fit.
+/// These, --fit, --optimize and --editable.
 void declare_mesh_options(CLI::App& parser, MeshOptions& options);
 
 void declare_input(CLI::App& parser, std::filesystem::path& input, const std::string& what);

@@ -15,9 +15,7 @@
 #include "quadrille/patch_geometry.h"
 
 namespace quadrille {
-namespace {
-
-void check(const PatchMesh& patches, const Raster& picture, const FitOptions& options) {
+void check_fit(const PatchMesh& patches, const Raster& picture, const FitOptions& options) {
   const auto reject = [](const std::string& message) {
     throw Error(ErrorCode::invalid_argument, message);
   };
@@ -35,6 +33,8 @@ void check(const PatchMesh& patches, const Raster& picture, const FitOptions& op
   }
 }
 
+namespace {
+
 FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
                                    const FitOptions& options, const RunContext& context) {
   ColorSystem system(patches, picture, options.regularization, context);
@@ -48,15 +48,7 @@ FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
   } else {
     correction = solve(system, options, context, report);
   }
-  for_each_range(static_cast<int>(correction.size()), [&](int begin, int end) {
-    for (int w = begin; w < end; ++w) {
-      Wedge& wedge = patches.wedges[w];
-      wedge.value += correction[w].col(0).array();
-      wedge.dx += correction[w].col(1).array();
-      wedge.dy += correction[w].col(2).array();
-      wedge.twist += correction[w].col(3).array();
-    }
-  });
+  add_correction(correction, patches.wedges);
   return report;
 }
 
@@ -64,7 +56,7 @@ FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
 
 FitReport fit_colors(PatchMesh& patches, const Raster& picture, const FitOptions& options,
                      const RunContext& context) {
-  check(patches, picture, options);
+  check_fit(patches, picture, options);
   FitReport report;
   tbb::task_arena arena(arena_size(context));
   arena.execute([&] {

@@ -3,7 +3,6 @@
 namespace quadrille {
 namespace {
 
-constexpr std::array<float, 4> kChoose3 = {1, 3, 3, 1};
 constexpr std::array<double, 7> kChoose6 = {1, 6, 15, 20, 15, 6, 1};
 
 }  // namespace
@@ -53,25 +52,6 @@ CornerUnknowns transpose_of(const std::array<CornerMap, 4>& corners,
     y[k].col(3) = duv * c.twist;
   }
   return y;
-}
-
-CornerUnknowns multiply(const PatchElement& element, const CornerUnknowns& x) {
-  BicubicBezier<Color> in = colors_of(element.corners, x), out;
-  for (int l = 0; l < 4; ++l) {
-    for (int k = 0; k < 4; ++k) in.control[l][k] *= kChoose3[l] * kChoose3[k];
-  }
-  for (int j = 0; j < 4; ++j) {
-    std::array<Color, 4> sum;
-    sum.fill(Color::Zero());
-    for (int l = 0; l < 4; ++l) {
-      const float* moments = element.moments.data() + 7 * (j + l);
-      for (int i = 0; i < 4; ++i) {
-        for (int k = 0; k < 4; ++k) sum[i] += in.control[l][k] * moments[i + k];
-      }
-    }
-    for (int i = 0; i < 4; ++i) out.control[j][i] = sum[i] * (kChoose3[j] * kChoose3[i]);
-  }
-  return transpose_of(element.corners, out);
 }
 
 std::array<double, 49> uniform_moments(double weight) {

@@ -17,16 +17,6 @@ struct CornerMap {
   float twist;                  ///< factor of the wedge's twist
 };
 
-/// The share of one patch in the normal equations of the least-squares fit.
-///
-/// In Bernstein form the product of two cubic basis functions is one sextic one, up to a factor, so
-/// the 16 x 16 matrix of a bicubic patch has only 7 x 7 different entries: the moments
-/// sum over samples of u^p (1-u)^(6-p) v^q (1-v)^(6-q), kept at moments[7 q + p].
-struct PatchElement {
-  std::array<CornerMap, 4> corners;
-  std::array<float, 49> moments;
-};
-
 std::array<CornerMap, 4> corner_maps(const PatchMesh& patches, int q);
 
 /// Bezier form of the patch's colour for the given unknowns.
@@ -36,10 +26,12 @@ BicubicBezier<Color> colors_of(const std::array<CornerMap, 4>& corners, const Co
 CornerUnknowns transpose_of(const std::array<CornerMap, 4>& corners,
                             const BicubicBezier<Color>& gradient);
 
-/// The element's matrix times the unknowns of its corners.
-CornerUnknowns multiply(const PatchElement& element, const CornerUnknowns& x);
-
 /// The moments of samples spread evenly over the parameter square, which weigh `weight` together.
+///
+/// In Bernstein form the product of two cubic basis functions is one sextic one, up to a factor, so
+/// the 16 x 16 matrix of a bicubic patch in the normal equations of the least-squares fit has only
+/// 7 x 7 different entries: the moments sum over samples of u^p (1-u)^(6-p) v^q (1-v)^(6-q), kept
+/// at 7 q + p.
 std::array<double, 49> uniform_moments(double weight);
 
 }  // namespace quadrille

@@ -7,6 +7,9 @@
 
 namespace quadrille {
 
+/// Throws Error{invalid_argument} where fit_colors() does.
+void check_fit(const PatchMesh& patches, const Raster& picture, const FitOptions& options);
+
 /// Normal equations with up to four unknowns per wedge and channel.
 class NormalEquations {
  public:

@@ -1,10 +1,13 @@
 #include "fit_system.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "fit_lanes.h"
 #include "parallel_ranges.h"
-#include "patch_scan.h"
+#include "patch_samples.h"
 #include "picture_sampling.h"
 
 namespace quadrille {
@@ -12,67 +15,33 @@ namespace {
 
 constexpr double kBlockFloor = 1e-5;  // relative to a unit diagonal
 
-/// Sums over the samples of one patch.
-struct PatchSums {
-  std::array<double, 49> moments;
-  std::array<std::array<Eigen::Array4d, 4>, 4> residual;  ///< weighted by each Bernstein product
-
-  explicit PatchSums(const std::array<double, 49>& initial) : moments(initial) {
-    for (auto& row : residual) row.fill(Eigen::Array4d::Zero());
-  }
-
-  void add(const Eigen::Vector2d& uv, const BicubicBezier<Color>& model,
-           const Eigen::Array4d& color, bool opaque) {
-    const Powers u(uv.x()), v(uv.y());
-    for (int q = 0; q < 7; ++q) {
-      for (int p = 0; p < 7; ++p) moments[7 * q + p] += u.sextic[p] * v.sextic[q];
+/// Adds the samples of the block's patch number `local` to the sums.
+void add_samples(const SampleBlock& samples, int local, const Raster& picture,
+                 const MixedPixels& mixed, const ControlColors& model, FitSums& sums) {
+  FitBatch batch;
+  const std::size_t last = samples.begin[local + 1];
+  auto exception = std::lower_bound(
+      samples.exceptions.begin(), samples.exceptions.end(), samples.begin[local],
+      [](const SampleBlock::Exception& e, std::size_t sample) { return e.sample < sample; });
+  for (std::size_t first = samples.begin[local]; first < last; first += FitBatch::kSize) {
+    const int count = static_cast<int>(std::min<std::size_t>(FitBatch::kSize, last - first));
+    batch.count = padded_count(count);
+    for (int i = 0; i < batch.count; ++i) {
+      const std::size_t sample = first + std::min(i, count - 1);
+      batch.u[i] = samples.u[sample];
+      batch.v[i] = samples.v[sample];
+      const std::uint32_t pixel = samples.pixel[sample];
+      const bool counts = i < count && (pixel == SampleBlock::kNoPixel || !mixed.contains(pixel));
+      batch.weight[i] = counts ? 1.0f : 0.0f;
+      const Color color = pixel == SampleBlock::kNoPixel ? Color(Color::Zero())
+                                                         : premultiplied_pixel(picture, pixel);
+      for (int c = 0; c < 4; ++c) batch.color[c][i] = color[c];
     }
-    Eigen::Array4d difference = color;
-    for (int j = 0; j < 4; ++j) {
-      for (int i = 0; i < 4; ++i) {
-        difference -= model.control[j][i].cast<double>() * (u.cubic[i] * v.cubic[j]);
-      }
+    for (; exception != samples.exceptions.end() && exception->sample < first + count;
+         ++exception) {
+      for (int c = 0; c < 4; ++c) batch.color[c][exception->sample - first] = exception->color[c];
     }
-    if (opaque) difference.w() = 0;
-    for (int j = 0; j < 4; ++j) {
-      for (int i = 0; i < 4; ++i) residual[j][i] += difference * (u.cubic[i] * v.cubic[j]);
-    }
-  }
-
- private:
-  struct Powers {
-    std::array<double, 4> cubic;   ///< Bernstein polynomials
-    std::array<double, 7> sextic;  ///< t^p (1 - t)^(6 - p)
-    explicit Powers(double t) {
-      const double s = 1 - t, s2 = s * s, t2 = t * t, s3 = s2 * s, t3 = t2 * t;
-      cubic = {s3, 3 * s2 * t, 3 * s * t2, t3};
-      sextic = {s3 * s3, s3 * s2 * t, s2 * s2 * t2, s3 * t3, s2 * t2 * t2, s * t2 * t3, t3 * t3};
-    }
-  };
-};
-
-bool on_outline(const Eigen::Vector2d& uv) {
-  return uv.x() <= 0 || uv.x() >= 1 || uv.y() <= 0 || uv.y() >= 1;
-}
-
-/// True for border edges inside the picture.
-bool is_rim(const QuadMesh& mesh, int h, const Raster& picture) {
-  if (mesh.twin(h) >= 0) return false;
-  const Eigen::Array2d p = mesh.vertices[mesh.origin(h)], q = mesh.vertices[mesh.tip(h)];
-  const Eigen::Array2d size(picture.width, picture.height);
-  return !((p == 0 && q == 0) || (p == size && q == size)).any();
-}
-
-/// Calls visit(uv) for places about a pixel apart along side k of the patch.
-template <class Visit>
-void for_each_rim_place(const BicubicHermite<Eigen::Vector2d>& geometry, int k,
-                        const Visit& visit) {
-  const double length = (geometry.value[(k + 1) & 3] - geometry.value[k]).norm();
-  const int count = std::max(1, static_cast<int>(std::lround(length)));
-  for (int i = 0; i < count; ++i) {
-    const double t = (i + 0.5) / count;
-    const Eigen::Vector2d places[4] = {{t, 0}, {1, t}, {1 - t, 1}, {0, 1 - t}};
-    visit(places[k]);
+    add_batch(model, picture.channels, batch, sums);
   }
 }
 
@@ -94,16 +63,39 @@ WedgeUnknowns unknowns_of(const Wedge& w) {
 
 }  // namespace
 
+void control_colors(const PatchMesh& patches, int q, const std::array<CornerMap, 4>& corners,
+                    ControlColors& control) {
+  CornerUnknowns x;
+  for (int k = 0; k < 4; ++k) {
+    x[k] = unknowns_of(patches.wedges[patches.wedge_of_corner[4 * q + k]]);
+  }
+  const BicubicBezier<Color> bezier = colors_of(corners, x);
+  for (int k = 0; k < 16; ++k) {
+    for (int c = 0; c < 4; ++c) control[c][k] = bezier.control[k / 4][k % 4][c];
+  }
+}
+
+void add_correction(const ColorSystem::Vector& correction, std::vector<Wedge>& wedges) {
+  for_each_range(static_cast<int>(wedges.size()), [&](int begin, int end) {
+    for (int w = begin; w < end; ++w) {
+      wedges[w].value += correction[w].col(0).array();
+      wedges[w].dx += correction[w].col(1).array();
+      wedges[w].dy += correction[w].col(2).array();
+      wedges[w].twist += correction[w].col(3).array();
+    }
+  });
+}
+
 ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, double regularization,
-                         const RunContext& context)
-    : wedge_of_corner_(patches.wedge_of_corner),
+                         const RunContext& context, std::vector<SampleBlock>* keep)
+    : channels_(picture.channels),
       wedge_corners_(patches),
       mixed_(patches, picture),
-      elements_(patches.patch_count()),
-      scratch_(patches.patch_count()),
+      groups_(padded_count(patches.patch_count()) / kLaneCount),
+      scratch_(padded_count(patches.patch_count())),
       inverse_blocks_(patches.wedges.size()) {
   right_hand_side.resize(patches.wedges.size());
-  assemble(patches, picture, regularization, context);
+  assemble(patches, picture, regularization, context, keep);
   mixed_.evaluate_residual();
   for_each_range(wedge_count(), [&](int begin, int end) {
     for (int w = begin; w < end; ++w) {
@@ -116,68 +108,45 @@ ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, double
 }
 
 void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, double regularization,
-                           const RunContext& context) {
+                           const RunContext& context, std::vector<SampleBlock>* keep) {
   context.progress("fit", 0);
+  if (keep) keep->resize(sample_block_count(patches));
   const PatchScan scan(patches, SampleGrid{});
-  for_each_range(patches.patch_count(), [&](int begin, int end) {
-    for (int q = begin; q < end; ++q) {
-      const SampleWindow window =
-          intersection(scan.bounds(q), {0, 0, picture.width, picture.height});
+  tbb::parallel_for(0, sample_block_count(patches), [&](int block) {
+    SampleBlock samples = find_samples(patches, scan, picture, block);
+    for (int local = 0; local < samples.patch_count(); ++local) {
+      const int q = samples.first_patch + local;
       const std::array<CornerMap, 4> corners = corner_maps(patches, q);
-      PatchSums sums(uniform_moments(regularization * quad_area(patches.mesh, q)));
-      if (!window.empty()) {
-        CornerUnknowns start;
-        for (int k = 0; k < 4; ++k) {
-          start[k] = unknowns_of(patches.wedges[patches.wedge_of_corner[4 * q + k]]);
-        }
-        const BicubicBezier<Color> model = colors_of(corners, start);
-        const auto geometry = patch_geometry(patches, q);
-        const PatchInverse inverse(geometry);
-        scan.scan(q, window, [&](int y, int x_begin, int x_end) {
-          for (int x = x_begin; x < x_end; ++x) {
-            if (mixed_.contains(x, y)) continue;
-            const Eigen::Vector2d uv = inverse({x + 0.5, y + 0.5});
-            // The outline is scanned as a polyline, so the centre may lie a little outside the
-            // curve; then the picture counts at the nearest point of the patch.
-            const Eigen::Array4d color = on_outline(uv)
-                                             ? sample_bilinear(picture, geometry.at(uv.x(), uv.y()))
-                                             : premultiplied_pixel(picture, x, y).cast<double>();
-            sums.add(uv, model, color, !picture.has_alpha());
-          }
-        });
-        // Inside the picture no pixel centres beyond the border hold the colours there.
-        for (int k = 0; k < 4; ++k) {
-          if (!is_rim(patches.mesh, 4 * q + k, picture)) continue;
-          for_each_rim_place(geometry, k, [&](const Eigen::Vector2d& uv) {
-            sums.add(uv, model, sample_bilinear(picture, geometry.at(uv.x(), uv.y())),
-                     !picture.has_alpha());
-          });
-        }
-      }
-      elements_[q].corners = corners;
-      std::copy(sums.moments.begin(), sums.moments.end(), elements_[q].moments.begin());
+      ControlColors model;
+      control_colors(patches, q, corners, model);
+      FitSums sums{};
+      const auto damping = uniform_moments(regularization * quad_area(patches.mesh, q));
+      std::copy(damping.begin(), damping.end(), sums.moments);
+      add_samples(samples, local, picture, mixed_, model, sums);
+      groups_[q / kLaneCount].set(q % kLaneCount, corners, sums.moments,
+                                  &patches.wedge_of_corner[4 * q]);
       BicubicBezier<Color> gradient;
-      for (int j = 0; j < 4; ++j) {
-        for (int i = 0; i < 4; ++i) gradient.control[j][i] = sums.residual[j][i].cast<float>();
+      for (int k = 0; k < 16; ++k) {
+        for (int c = 0; c < 4; ++c) {
+          gradient.control[k / 4][k % 4][c] = static_cast<float>(sums.residual[c][k]);
+        }
       }
       scratch_[q] = transpose_of(corners, gradient);
     }
+    if (keep) (*keep)[block] = std::move(samples);
   });
   context.progress("fit", 0.5);
 }
 
-void ColorSystem::invert_blocks() {
-  // Four unit vectors pass through an element at once, one in each colour channel.
-  for_each_range(static_cast<int>(elements_.size()), [&](int begin, int end) {
-    for (int q = begin; q < end; ++q) {
-      for (int k = 0; k < 4; ++k) {
-        CornerUnknowns unit;
-        for (WedgeUnknowns& x : unit) x.setZero();
-        unit[k].setIdentity();
-        scratch_[q][k] = quadrille::multiply(elements_[q], unit)[k];
-      }
-    }
+template <class Body>
+void ColorSystem::for_each_group(const Body& body) {
+  for_each_range(static_cast<int>(groups_.size()), [&](int begin, int end) {
+    for (int g = begin; g < end; ++g) body(g);
   });
+}
+
+void ColorSystem::invert_blocks() {
+  for_each_group([&](int g) { diagonal_blocks(groups_[g], &scratch_[g * kLaneCount]); });
   for_each_range(wedge_count(), [&](int begin, int end) {
     for (int w = begin; w < end; ++w) {
       Eigen::Matrix4d block = mixed_.block(w);
@@ -194,12 +163,8 @@ void ColorSystem::invert_blocks() {
 }
 
 Eigen::Array4d ColorSystem::multiply(const Vector& x, Vector& product) {
-  for_each_range(static_cast<int>(elements_.size()), [&](int begin, int end) {
-    for (int q = begin; q < end; ++q) {
-      CornerUnknowns local;
-      for (int k = 0; k < 4; ++k) local[k] = x[wedge_of_corner_[4 * q + k]];
-      scratch_[q] = quadrille::multiply(elements_[q], local);
-    }
+  for_each_group([&](int g) {
+    quadrille::multiply(groups_[g], channels_, x.data(), &scratch_[g * kLaneCount]);
   });
   mixed_.evaluate(x);
   return sum_over_ranges(wedge_count(), Eigen::Array4d(0, 0, 0, 0), [&](int begin, int end) {

@@ -2,9 +2,11 @@
 
 #include <vector>
 
-#include "fit_element.h"
+#include "element_lanes.h"
+#include "fit_lanes.h"
 #include "fit_solver.h"
 #include "mixed_pixels.h"
+#include "patch_samples.h"
 #include "quadrille/patch_mesh.h"
 #include "quadrille/raster.h"
 #include "quadrille/run_context.h"
@@ -18,24 +20,38 @@ namespace quadrille {
 class ColorSystem : public NormalEquations {
  public:
   /// Scans the picture. The correction is damped as if every square pixel had another equation of
-  /// weight `regularization` that asks for no correction.
+  /// weight `regularization` that asks for no correction. With `keep` the samples are left there.
   ColorSystem(const PatchMesh& patches, const Raster& picture, double regularization,
-              const RunContext& context);
+              const RunContext& context, std::vector<SampleBlock>* keep = nullptr);
 
   Eigen::Array4d multiply(const Vector& x, Vector& product) override;
   const Eigen::Matrix4f& inverse_block(int wedge) const override { return inverse_blocks_[wedge]; }
 
+  int channels() const { return channels_; }
+  const WedgeCorners& wedge_corners() const { return wedge_corners_; }
+  const MixedPixels& mixed_pixels() const { return mixed_; }
+  /// Patch q has place q % kLaneCount of group q / kLaneCount.
+  const std::vector<ElementGroup>& groups() const { return groups_; }
+
  private:
   void assemble(const PatchMesh& patches, const Raster& picture, double regularization,
-                const RunContext& context);
+                const RunContext& context, std::vector<SampleBlock>* keep);
   void invert_blocks();
+  template <class Body>
+  void for_each_group(const Body& body);
 
-  std::vector<int> wedge_of_corner_;
+  int channels_;
   WedgeCorners wedge_corners_;
   MixedPixels mixed_;
-  std::vector<PatchElement> elements_;
-  std::vector<CornerUnknowns> scratch_;  // per patch
+  std::vector<ElementGroup> groups_;
+  std::vector<CornerUnknowns> scratch_;  // per patch, and for the empty places of the last group
   std::vector<Eigen::Matrix4f> inverse_blocks_;
 };
+
+/// Bezier form of the colours that patch q has; `corners` are its corner_maps().
+void control_colors(const PatchMesh& patches, int q, const std::array<CornerMap, 4>& corners,
+                    ControlColors& control);
+
+void add_correction(const ColorSystem::Vector& correction, std::vector<Wedge>& wedges);
 
 }  // namespace quadrille

@@ -27,9 +27,7 @@ class MixedPixels {
 
   bool empty() const { return values_.empty(); }
   /// True for the pixels that have an equation here, which leave none to point samples.
-  bool contains(int x, int y) const {
-    return !is_mixed_.empty() && is_mixed_[static_cast<std::size_t>(y) * width_ + x];
-  }
+  bool contains(std::size_t pixel) const { return !is_mixed_.empty() && is_mixed_[pixel]; }
 
   /// Puts the difference of the picture from the patches' present colours in front of gather().
   void evaluate_residual();

@@ -2,20 +2,9 @@
 
 #include <cstring>
 
-// Functions that work on lanes are compiled for several instruction sets, and the best one that the
-// machine has is chosen when the program starts. Sanitizers cannot start with such functions.
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define QUADRILLE_MULTIVERSION __attribute__((target_clones("avx2", "default")))
-#else
-#define QUADRILLE_MULTIVERSION
-#endif
-#define QUADRILLE_INLINE inline __attribute__((always_inline))
-
 namespace quadrille {
 namespace {
 
-using Lanes = float __attribute__((vector_size(4 * kLaneCount)));
 using Mask = int __attribute__((vector_size(4 * kLaneCount)));
 
 constexpr int kMaxNewtonSteps = 6;
@@ -85,8 +74,10 @@ QUADRILLE_INLINE bool any(const Mask& mask) {
   return all != 0;
 }
 
-QUADRILLE_INLINE void invert(const PatchCoefficients& c, const Lanes& x, const Lanes& y, Lanes& u,
-                             Lanes& v, Mask& found) {
+QUADRILLE_INLINE void invert(const GeometryCoefficients& c, const Lanes& given_x,
+                             const Lanes& given_y, Lanes& u, Lanes& v, Mask& found) {
+  const Lanes x = c.map[0][0] * given_x + c.map[0][1] * given_y + c.map[0][2];
+  const Lanes y = c.map[1][0] * given_x + c.map[1][1] * given_y + c.map[1][2];
   const Lanes zero = {}, one = zero + 1.0f;
   Lanes start[2];
   for (int d = 0; d < 2; ++d) {
@@ -131,12 +122,24 @@ void shade_lanes(const PatchCoefficients& c, bool opaque, const LaneBatch& batch
     Lanes given_x, given_y, u, v, color[4];
     std::memcpy(&given_x, batch.x + i, sizeof given_x);
     std::memcpy(&given_y, batch.y + i, sizeof given_y);
-    const Lanes x = c.map[0][0] * given_x + c.map[0][1] * given_y + c.map[0][2];
-    const Lanes y = c.map[1][0] * given_x + c.map[1][1] * given_y + c.map[1][2];
     Mask found;
-    invert(c, x, y, u, v, found);
+    invert(c.geometry, given_x, given_y, u, v, found);
     colors(c, opaque, u, v, color);
     for (int k = 0; k < 4; ++k) std::memcpy(batch.color[k] + i, &color[k], sizeof color[k]);
+    std::memcpy(batch.found + i, &found, sizeof found);
+  }
+}
+
+QUADRILLE_MULTIVERSION
+void invert_lanes(const GeometryCoefficients& c, const PointBatch& batch) {
+  for (int i = 0; i < batch.count; i += kLaneCount) {
+    Lanes x, y, u, v;
+    std::memcpy(&x, batch.x + i, sizeof x);
+    std::memcpy(&y, batch.y + i, sizeof y);
+    Mask found;
+    invert(c, x, y, u, v, found);
+    std::memcpy(batch.u + i, &u, sizeof u);
+    std::memcpy(batch.v + i, &v, sizeof v);
     std::memcpy(batch.found + i, &found, sizeof found);
   }
 }

@@ -5,6 +5,19 @@
 
 namespace quadrille {
 
+GeometryCoefficients geometry_coefficients(const NormalizedPatch& normalized,
+                                           const Eigen::Affine2d& map) {
+  GeometryCoefficients c;
+  for (int d = 0; d < 2; ++d) {
+    for (int k = 0; k < 3; ++k) c.map[d][k] = static_cast<float>(map(d, k));
+    for (int k = 0; k < 6; ++k) c.start[d][k] = static_cast<float>(normalized.start[k][d]);
+    for (int k = 0; k < 16; ++k) {
+      c.position[d][k] = static_cast<float>(normalized.position[k / 4][k % 4][d]);
+    }
+  }
+  return c;
+}
+
 PatchShader::PatchShader(const PatchMesh& patches, int patch, const Eigen::Affine2d& to_samples,
                          const Eigen::Affine2d& from_samples)
     : opaque_(patches.opaque) {
@@ -18,13 +31,7 @@ PatchShader::PatchShader(const PatchMesh& patches, int patch, const Eigen::Affin
                               Eigen::Translation2d(-normalized.center.matrix()) * to_mesh_;
   const PowerBasis<Color> color = power_basis(ferguson.color);
   PatchCoefficients& c = coefficients_;
-  for (int d = 0; d < 2; ++d) {
-    for (int k = 0; k < 3; ++k) c.map[d][k] = static_cast<float>(map(d, k));
-    for (int k = 0; k < 6; ++k) c.start[d][k] = static_cast<float>(normalized.start[k][d]);
-    for (int k = 0; k < 16; ++k) {
-      c.position[d][k] = static_cast<float>(normalized.position[k / 4][k % 4][d]);
-    }
-  }
+  c.geometry = geometry_coefficients(normalized, map);
   for (int d = 0; d < 4; ++d) {
     for (int k = 0; k < 16; ++k) c.color[d][k] = color[k / 4][k % 4][d];
   }
@@ -32,7 +39,7 @@ PatchShader::PatchShader(const PatchMesh& patches, int patch, const Eigen::Affin
 
 void PatchShader::shade(Batch& batch) {
   if (batch.count == 0) return;
-  const int padded = (batch.count + kLaneCount - 1) / kLaneCount * kLaneCount;
+  const int padded = padded_count(batch.count);
   std::fill(batch.x + batch.count, batch.x + padded, batch.x[batch.count - 1]);
   std::fill(batch.y + batch.count, batch.y + padded, batch.y[batch.count - 1]);
   alignas(64) int found[kBatch];

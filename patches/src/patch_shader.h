@@ -10,6 +10,10 @@
 
 namespace quadrille {
 
+/// The normalized patch as floats; `map` takes given points to normalized ones.
+GeometryCoefficients geometry_coefficients(const NormalizedPatch& normalized,
+                                           const Eigen::Affine2d& map);
+
 /// Colours of one patch at points of a sample grid, many at a time, in float. The error against
 /// exact evaluation stays below 1/50 of an 8-bit step. What a point gets depends on the patch and
 /// the point only, not on the points that are shaded along with it.

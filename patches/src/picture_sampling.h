@@ -9,11 +9,15 @@
 
 namespace quadrille {
 
-/// The colour of one pixel, premultiplied.
-inline Color premultiplied_pixel(const Raster& picture, int x, int y) {
-  const float* p = picture.pixel(x, y);
+/// The colour of pixel number index = y * width + x, premultiplied.
+inline Color premultiplied_pixel(const Raster& picture, std::size_t index) {
+  const float* p = picture.data.data() + index * picture.channels;
   if (!picture.has_alpha()) return {p[0], p[1], p[2], 1.0f};
   return {p[0] * p[3], p[1] * p[3], p[2] * p[3], p[3]};
+}
+
+inline Color premultiplied_pixel(const Raster& picture, int x, int y) {
+  return premultiplied_pixel(picture, static_cast<std::size_t>(y) * picture.width + x);
 }
 
 /// Bilinear interpolation of the premultiplied pixel centres. The half pixel along the border

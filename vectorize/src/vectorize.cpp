@@ -61,10 +61,14 @@ Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
   const Raster& shown = quads.outline.empty() ? picture : quads.inside;
   const FitReport fit = fit_colors(patches, shown, options.fit, recorded);
   clock.finish("colours", {{"iterations", fit.iterations}});
+  const OptimizeReport optimized =
+      optimize_vertices(patches, shown, options.optimize, options.fit, recorded);
+  clock.finish("vertices", {{"rounds", optimized.rounds.size()}, {"accepted", optimized.accepted}});
 
   Vectorization result;
   result.report = describe(picture, quads, patches);
   result.report.fit = fit;
+  result.report.optimize = optimized;
   result.report.stages = std::move(stages);
   result.image = picture_of(picture, std::move(patches));
   return result;

@@ -7,6 +7,7 @@
 #include "quadrille/feature_chains.h"
 #include "quadrille/feature_snapping.h"
 #include "quadrille/fit.h"
+#include "quadrille/optimize.h"
 #include "quadrille/position_field.h"
 #include "quadrille/quad_extraction.h"
 #include "quadrille/scale_field.h"
@@ -47,6 +48,7 @@ struct VectorizeOptions {
   double least_chain_gain = 1;
   SnapOptions snap;
   FitOptions fit;
+  OptimizeOptions optimize;
   /// Use the plain axis-aligned lattice instead of the fields.
   bool lattice = false;
 };
@@ -82,7 +84,8 @@ struct VectorizeReport {
   MeshRegion region = MeshRegion::whole;  ///< of the mesh that was made
   int components = 0, holes = 0;          ///< of the mesh
   double outline_length = 0;              ///< pixels, around components and holes
-  FitReport fit;
+  FitReport fit;                          ///< on the mesh before its vertices were optimised
+  OptimizeReport optimize;
   std::vector<StageReport> stages;
 };
 
@@ -105,8 +108,8 @@ Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& opt
 void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster& fitted,
                      const VectorizeOptions& options, const RunContext& context = {});
 
-/// The whole way: quadrangulate, then the steps of fit_patches(), each reported as a stage. Throws
-/// as quadrangulate() does.
+/// The whole way: quadrangulate, then the steps of fit_patches() and optimize_vertices(), each
+/// reported as a stage. Throws as these do.
 Vectorization vectorize(const Raster& picture, const VectorizeOptions& options = {},
                         const RunContext& context = {});
 

@@ -1,0 +1,98 @@
+#include "element_lanes.h"
+
+#include "corner_lanes.h"
+
+namespace quadrille {
+namespace {
+
+QUADRILLE_INLINE void multiply_moments(const float (&moments)[49][kLaneCount],
+                                       const ControlLanes& in, ControlLanes& out) {
+  for (int j = 0; j < 4; ++j) {
+    Lanes sum[4] = {};
+#pragma GCC unroll 4
+    for (int l = 0; l < 4; ++l) {
+      Lanes row[7];
+#pragma GCC unroll 7
+      for (int p = 0; p < 7; ++p) load(moments[7 * (j + l) + p], row[p]);
+#pragma GCC unroll 4
+      for (int i = 0; i < 4; ++i) {
+#pragma GCC unroll 4
+        for (int k = 0; k < 4; ++k) sum[i] += row[i + k] * in[4 * l + k];
+      }
+    }
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; ++i) out[4 * j + i] = sum[i];
+  }
+}
+
+}  // namespace
+
+void ElementGroup::set(int lane, const std::array<CornerMap, 4>& maps, const double (&sums)[49],
+                       const int* wedge_of_corner) {
+  for (int i = 0; i < 49; ++i) moments[i][lane] = static_cast<float>(sums[i]);
+  for (int k = 0; k < 4; ++k) {
+    const CornerMap& m = maps[k];
+    const float numbers[7] = {m.du.x(),  m.du.y(),  m.dv.x(), m.dv.y(),
+                              m.duv.x(), m.duv.y(), m.twist};
+    for (int i = 0; i < 7; ++i) corners[k][i][lane] = numbers[i];
+    wedges[k][lane] = wedge_of_corner[k];
+  }
+}
+
+QUADRILLE_MULTIVERSION
+void multiply(const ElementGroup& group, int channels, const WedgeUnknowns* x,
+              CornerUnknowns* result) {
+  CornerLanes local[4];
+  for (int k = 0; k < 4; ++k) {
+    for (int unknown = 0; unknown < 4; ++unknown) {
+      Lanes channel[4];
+      gather(x, group.wedges[k], unknown, channel);
+#pragma GCC unroll 4
+      for (int c = 0; c < 4; ++c) local[c][k][unknown] = channel[c];
+    }
+  }
+  for (int c = 0; c < channels; ++c) {
+    ControlLanes in, out;
+    to_control(group, local[c], in);
+    multiply_moments(group.moments, in, out);
+    from_control(group, out, local[c]);
+  }
+  for (int k = 0; k < 4; ++k) {
+    for (int unknown = 0; unknown < 4; ++unknown) {
+      Lanes channel[4] = {};
+      for (int c = 0; c < channels; ++c) channel[c] = local[c][k][unknown];
+      scatter(channel, k, unknown, result);
+    }
+  }
+}
+
+QUADRILLE_MULTIVERSION
+void diagonal_blocks(const ElementGroup& group, CornerUnknowns* result) {
+  for (int k = 0; k < 4; ++k) {
+    const CornerPlace& place = kCornerPlaces[k];
+    const int at[4] = {place.first, place.first + place.step_u, place.first + place.step_v,
+                       place.first + place.step_u + place.step_v};
+    Lanes moment[4][4];
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < 4; ++b) {
+        load(group.moments[7 * (at[a] / 4 + at[b] / 4) + at[a] % 4 + at[b] % 4], moment[a][b]);
+      }
+    }
+    // The four unit vectors of the corner, one in each channel.
+    Lanes column[4][4];
+    for (int unit = 0; unit < 4; ++unit) {
+      CornerLanes x = {};
+      x[k][unit] += 1.0f;
+      ControlLanes in, out = {};
+      to_control(group, x, in);
+      for (int a = 0; a < 4; ++a) {
+        for (int b = 0; b < 4; ++b) out[at[a]] += moment[a][b] * in[at[b]];
+      }
+      from_control(group, out, x);
+      for (int unknown = 0; unknown < 4; ++unknown) column[unknown][unit] = x[k][unknown];
+    }
+    for (int unknown = 0; unknown < 4; ++unknown) scatter(column[unknown], k, unknown, result);
+  }
+}
+
+}  // namespace quadrille

@@ -1,0 +1,155 @@
+#include "motion_lanes.h"
+
+#include "corner_lanes.h"
+
+namespace quadrille {
+namespace {
+
+constexpr int kGroups = FitBatch::kSize / kLaneCount;
+
+/// Whether corner k lies at parameter 1.
+constexpr int kAtU[4] = {0, 1, 1, 0}, kAtV[4] = {0, 0, 1, 1};
+
+QUADRILLE_INLINE void powers(const Lanes& t, Lanes (&linear)[2], Lanes (&quadratic)[3],
+                             Lanes (&quartic)[5]) {
+  const Lanes s = 1.0f - t, s2 = s * s, t2 = t * t, st = s * t;
+  linear[0] = s, linear[1] = t;
+  quadratic[0] = s2, quadratic[1] = st, quadratic[2] = t2;
+  quartic[0] = s2 * s2, quartic[1] = s2 * st, quartic[2] = s2 * t2;
+  quartic[3] = st * t2, quartic[4] = t2 * t2;
+}
+
+}  // namespace
+
+QUADRILLE_MULTIVERSION
+void add_batch(int channels, const MotionBatch& batch, MotionSums& sums) {
+  const int groups = batch.count / kLaneCount;
+  Lanes linear_u[kGroups][2], linear_v[kGroups][2], quadratic_u[kGroups][3],
+      quadratic_v[kGroups][3];
+  Lanes quartic_u[kGroups][5], quartic_v[kGroups][5];
+  Lanes gradient[4][2][kGroups], product[3][kGroups], pull[2][kGroups];
+  for (int g = 0; g < groups; ++g) {
+    Lanes u, v, weight;
+    load(batch.u + kLaneCount * g, u);
+    load(batch.v + kLaneCount * g, v);
+    load(batch.weight + kLaneCount * g, weight);
+    powers(u, linear_u[g], quadratic_u[g], quartic_u[g]);
+    powers(v, linear_v[g], quadratic_v[g], quartic_v[g]);
+    const Lanes zero = {};
+    for (auto& p : product) p[g] = zero;
+    for (auto& p : pull) p[g] = zero;
+    for (int c = 0; c < channels; ++c) {
+      Lanes x, y, residual;
+      load(batch.gradient[c][0] + kLaneCount * g, x);
+      load(batch.gradient[c][1] + kLaneCount * g, y);
+      load(batch.residual[c] + kLaneCount * g, residual);
+      const Lanes weighted_x = weight * x, weighted_y = weight * y;
+      product[0][g] += weighted_x * x;
+      product[1][g] += weighted_x * y;
+      product[2][g] += weighted_y * y;
+      pull[0][g] += weighted_x * residual;
+      pull[1][g] += weighted_y * residual;
+      gradient[c][0][g] = weighted_x;
+      gradient[c][1][g] = weighted_y;
+    }
+  }
+  for (int c = 0; c < channels; ++c) {
+    for (int d = 0; d < 2; ++d) {
+      for (int j = 0; j < 5; ++j) {
+        Lanes sum[5] = {};
+        for (int g = 0; g < groups; ++g) {
+          const Lanes row = gradient[c][d][g] * quartic_v[g][j];
+#pragma GCC unroll 5
+          for (int i = 0; i < 5; ++i) sum[i] += row * quartic_u[g][i];
+        }
+#pragma GCC unroll 5
+        for (int i = 0; i < 5; ++i) sums.mixed[c][d][5 * j + i] += sum_of(sum[i]);
+      }
+    }
+  }
+  for (int s = 0; s < 3; ++s) {
+    for (int j = 0; j < 3; ++j) {
+      Lanes sum[3] = {};
+      for (int g = 0; g < groups; ++g) {
+        const Lanes row = product[s][g] * quadratic_v[g][j];
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) sum[i] += row * quadratic_u[g][i];
+      }
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) sums.stiffness[s][3 * j + i] += sum_of(sum[i]);
+    }
+  }
+  for (int k = 0; k < 4; ++k) {
+    for (int d = 0; d < 2; ++d) {
+      Lanes sum = {};
+      for (int g = 0; g < groups; ++g) {
+        sum += pull[d][g] * linear_u[g][kAtU[k]] * linear_v[g][kAtV[k]];
+      }
+      sums.force[k][d] += sum_of(sum);
+    }
+  }
+}
+
+QUADRILLE_MULTIVERSION
+void multiply(const ElementGroup& group, const MotionGroup& motion, int channels,
+              const WedgeUnknowns* x, const Eigen::Vector2f* p, CornerUnknowns* colors,
+              CornerMoves* moves) {
+  CornerLanes local[4];
+  float given[8][kLaneCount];
+  for (int k = 0; k < 4; ++k) {
+    for (int unknown = 0; unknown < 4; ++unknown) {
+      Lanes channel[4];
+      gather(x, group.wedges[k], unknown, channel);
+#pragma GCC unroll 4
+      for (int c = 0; c < 4; ++c) local[c][k][unknown] = channel[c];
+    }
+    for (int lane = 0; lane < kLaneCount; ++lane) {
+      const Eigen::Vector2f& move = p[motion.vertices[k][lane]];
+      given[2 * k][lane] = move.x();
+      given[2 * k + 1][lane] = move.y();
+    }
+  }
+  Lanes move[8], result[8] = {};
+#pragma GCC unroll 8
+  for (int a = 0; a < 8; ++a) load(given[a], move[a]);
+  for (int a = 0; a < 8; ++a) {
+#pragma GCC unroll 8
+    for (int b = 0; b < 8; ++b) {
+      Lanes entry;
+      load(motion.stiffness[8 * a + b], entry);
+      result[a] += entry * move[b];
+    }
+  }
+  for (int c = 0; c < channels; ++c) {
+    ControlLanes in, out = {};
+    to_control(group, local[c], in);
+    for (int d = 0; d < 2; ++d) {
+      for (int j = 0; j < 4; ++j) {
+#pragma GCC unroll 4
+        for (int k = 0; k < 4; ++k) {
+          const float(*const row)[kLaneCount] = motion.mixed[c][d] + 5 * (j + kAtV[k]) + kAtU[k];
+#pragma GCC unroll 4
+          for (int i = 0; i < 4; ++i) {
+            Lanes moment;
+            load(row[i], moment);
+            out[4 * j + i] -= moment * move[2 * k + d];
+            result[2 * k + d] -= moment * in[4 * j + i];
+          }
+        }
+      }
+    }
+    from_control(group, out, local[c]);
+  }
+  for (int k = 0; k < 4; ++k) {
+    for (int unknown = 0; unknown < 4; ++unknown) {
+      Lanes channel[4] = {};
+      for (int c = 0; c < channels; ++c) channel[c] = local[c][k][unknown];
+      scatter(channel, k, unknown, colors);
+    }
+  }
+  for (int a = 0; a < 8; ++a) {
+    for (int lane = 0; lane < kLaneCount; ++lane) moves[lane][a / 2][a % 2] = result[a][lane];
+  }
+}
+
+}  // namespace quadrille
