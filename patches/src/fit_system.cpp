@@ -55,27 +55,6 @@ bool on_outline(const Eigen::Vector2d& uv) {
   return uv.x() <= 0 || uv.x() >= 1 || uv.y() <= 0 || uv.y() >= 1;
 }
 
-/// True for border edges inside the picture.
-bool is_rim(const QuadMesh& mesh, int h, const Raster& picture) {
-  if (mesh.twin(h) >= 0) return false;
-  const Eigen::Array2d p = mesh.vertices[mesh.origin(h)], q = mesh.vertices[mesh.tip(h)];
-  const Eigen::Array2d size(picture.width, picture.height);
-  return !((p == 0 && q == 0) || (p == size && q == size)).any();
-}
-
-/// Calls visit(uv) for places about a pixel apart along side k of the patch.
-template <class Visit>
-void for_each_rim_place(const BicubicHermite<Eigen::Vector2d>& geometry, int k,
-                        const Visit& visit) {
-  const double length = (geometry.value[(k + 1) & 3] - geometry.value[k]).norm();
-  const int count = std::max(1, static_cast<int>(std::lround(length)));
-  for (int i = 0; i < count; ++i) {
-    const double t = (i + 0.5) / count;
-    const Eigen::Vector2d places[4] = {{t, 0}, {1, t}, {1 - t, 1}, {0, 1 - t}};
-    visit(places[k]);
-  }
-}
-
 double quad_area(const QuadMesh& mesh, int q) {
   const QuadMesh::Quad& c = mesh.quads()[q];
   const Eigen::Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
@@ -145,14 +124,6 @@ void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, doub
             sums.add(uv, model, color, !picture.has_alpha());
           }
         });
-        // Inside the picture no pixel centres beyond the border hold the colours there.
-        for (int k = 0; k < 4; ++k) {
-          if (!is_rim(patches.mesh, 4 * q + k, picture)) continue;
-          for_each_rim_place(geometry, k, [&](const Eigen::Vector2d& uv) {
-            sums.add(uv, model, sample_bilinear(picture, geometry.at(uv.x(), uv.y())),
-                     !picture.has_alpha());
-          });
-        }
       }
       elements_[q].corners = corners;
       std::copy(sums.moments.begin(), sums.moments.end(), elements_[q].moments.begin());

@@ -10,10 +10,11 @@
 
 namespace quadrille {
 
-/// The least-squares equations of the pixels that a tear crosses. The renderer mixes them from the
-/// patches that they show (see render()), so each is one equation over the unknowns of several
-/// patches: sum over its patches of covered share * colour at the share's centroid = the pixel's
-/// colour. Where the mesh covers only a part of the pixel, that part has the pixel's colour.
+/// The least-squares equations of the pixels that a tear crosses, or the border of the mesh inside
+/// the picture. The renderer mixes them from the patches that they show (see render()), so each is
+/// one equation over the unknowns of several patches: sum over its patches of covered share *
+/// colour at the share's centroid = the pixel's colour. Where the mesh covers only a part of the
+/// pixel, that part has the pixel's colour.
 ///
 /// The equations are kept as sparse rows over the wedges. A product with their normal matrix takes
 /// two steps, evaluate() over all pixels and gather() for every wedge; both add up in a fixed
@@ -22,7 +23,7 @@ class MixedPixels {
  public:
   using Vector = std::vector<WedgeUnknowns>;
 
-  /// Finds the pixels. None when the mesh has no tears.
+  /// Finds the pixels. None when the mesh has no tears and fills the picture.
   MixedPixels(const PatchMesh& patches, const Raster& picture);
 
   bool empty() const { return values_.empty(); }

@@ -130,6 +130,34 @@ TEST(TornFit, KeepsTheColourInsideASilhouette) {
   }
 }
 
+/// The quads inside the circle alone, as a mesh region.
+QuadMesh inside_of(const QuadMesh& disc, int columns, int rings_inside) {
+  const int around = 4 * columns;
+  const int vertices = (columns + 1) * (columns + 1) + rings_inside * around;
+  const int quads = columns * columns + rings_inside * around;
+  return {{disc.vertices.begin(), disc.vertices.begin() + vertices},
+          {disc.quads().begin(), disc.quads().begin() + quads}};
+}
+
+TEST(TornFit, ContinuesThePictureAtTheBorderOfARegion) {
+  const DiscMesh disc = disc_mesh(4, 2, 1, 64, 60, {30.7, 31.2}, 21.4);
+  const QuadMesh region = inside_of(disc.mesh, 4, 2);
+  const Raster picture = paint_box_filtered(64, 60, 3, 1, [](double x, double y) -> Array4d {
+    return {0.01 * x, 0.9 - 0.01 * y, 0.3 + 0.005 * (x + y), 1};
+  });
+  for (const FitMethod method : {FitMethod::bessel, FitMethod::bessel_ls, FitMethod::hermite}) {
+    FitOptions options;
+    options.method = method;
+    const PatchMesh patches = fit_patches(region, picture, options);
+    for (int h = 0; h < region.halfedge_count(); ++h) {
+      const Vector2d p = region.vertices[region.origin(h)];
+      const Wedge& w = patches.wedges[patches.wedge_of_corner[h]];
+      EXPECT_NEAR(w.value[0], 0.01 * p.x(), 1e-5);
+      EXPECT_NEAR(w.value[1], 0.9 - 0.01 * p.y(), 1e-5);
+    }
+  }
+}
+
 TEST(TornFit, FollowsAJumpThatEndsInThePicture) {
   const int width = 64, height = 64;
   const double top = 25.3, bottom = 38.9, end = 40;
@@ -201,7 +229,7 @@ TEST(MixedPixels, AgreeWithTheRenderer) {
   }
 }
 
-TEST(MixedPixels, AreNoneWithoutTears) {
+TEST(MixedPixels, AreNoneWithoutTearsInAPictureThatIsFilled) {
   const PatchMesh patches = random_patches(5, 4, 50, 40, 2);
   const MixedPixels mixed(patches, Raster(50, 40, 3));
   EXPECT_TRUE(mixed.empty());
