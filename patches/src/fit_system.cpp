@@ -10,6 +10,9 @@
 namespace quadrille {
 namespace {
 
+/// Damping of what a mixture leaves open, beside that of every square pixel: else slivers between
+/// tears would take any colour to explain their pixels.
+constexpr double kOpenWeight = 300;
 constexpr double kBlockFloor = 1e-5;  // relative to a unit diagonal
 
 /// Sums over the samples of one patch.
@@ -103,7 +106,8 @@ void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, doub
       const SampleWindow window =
           intersection(scan.bounds(q), {0, 0, picture.width, picture.height});
       const std::array<CornerMap, 4> corners = corner_maps(patches, q);
-      PatchSums sums(uniform_moments(regularization * quad_area(patches.mesh, q)));
+      PatchSums sums(uniform_moments(
+          regularization * (quad_area(patches.mesh, q) + kOpenWeight * mixed_.open_area(q))));
       if (!window.empty()) {
         CornerUnknowns start;
         for (int k = 0; k < 4; ++k) {

@@ -65,6 +65,7 @@ struct MixedPixels::BlockRows {
     }
   };
   std::vector<Row> rows;
+  std::vector<std::pair<int, double>> open_areas;  ///< patch, area
 
   void find(const PatchScan& scan, std::span<const int> seen, const SampleWindow& window) {
     const PatchMesh& patches = scan.patches();
@@ -78,7 +79,9 @@ struct MixedPixels::BlockRows {
       if (shares.empty()) continue;
       const std::array<CornerMap, 4> corners = corner_maps(patches, q);
       const PatchInverse inverse(patch_geometry(patches, q));
+      open_areas.emplace_back(q, 0);
       for (const OutlinePixels::Share& share : shares) {
+        open_areas.back().second += share.weight * (1 - share.weight);
         Row& row = rows[share.pixel];
         const Eigen::Vector2d point(row.x + share.x, row.y + share.y);
         const auto factors = corner_factors(corners, inverse(point));
@@ -125,8 +128,10 @@ MixedPixels::MixedPixels(const PatchMesh& patches, const Raster& picture) : widt
   });
 
   is_mixed_.assign(static_cast<std::size_t>(picture.width) * picture.height, 0);
+  open_area_.assign(patches.patch_count(), 0);
   row_begin_.push_back(0);
   for (const BlockRows& block : blocks) {
+    for (const auto& [patch, area] : block.open_areas) open_area_[patch] += area;
     for (const BlockRows::Row& row : block.rows) {
       is_mixed_[static_cast<std::size_t>(row.y) * width_ + row.x] = 1;
       Eigen::Array4d rest = row.color(picture);

@@ -38,6 +38,9 @@ class MixedPixels {
   void evaluate(const Vector& x);
   /// Adds the wedge's part of the transposed rows times what was evaluated.
   void gather(int wedge, WedgeUnknowns& sum) const;
+  /// How many pixels' worth of the patch's colour its mixtures leave open: the sum of w (1 - w)
+  /// over its shares w.
+  double open_area(int patch) const { return open_area_.empty() ? 0 : open_area_[patch]; }
   /// The wedge's own block of the normal matrix.
   Eigen::Matrix4d block(int wedge) const;
 
@@ -51,6 +54,7 @@ class MixedPixels {
 
   int width_ = 0;
   std::vector<char> is_mixed_;                      // #pixels of the picture; empty for none
+  std::vector<double> open_area_;                   // #Q; empty for none
   std::vector<int> row_begin_;                      // #rows + 1
   std::vector<Entry> entries_;                      // by row, then by wedge
   std::vector<int> wedge_begin_;                    // #W + 1

@@ -236,6 +236,25 @@ TEST(MixedPixels, AreNoneWithoutTearsInAPictureThatIsFilled) {
   EXPECT_FALSE(mixed.contains(20, 20));
 }
 
+TEST(TornFit, SliversBetweenTearsStaySane) {
+  Random random(5);
+  Raster picture(96, 96, 3);
+  for (float& c : picture.data) c = static_cast<float>(random.uniform(0.3, 0.7));
+  for (const int columns : {16, 32, 48}) {
+    QuadMesh mesh = random_patches(columns, columns, 96, 96, 3).mesh;
+    for (std::uint8_t& flags : mesh.edge_flags) {
+      if (random.uniform() < 0.4) flags |= kTearEdge;
+    }
+    for (const FitMethod method : {FitMethod::bessel, FitMethod::bessel_ls, FitMethod::hermite}) {
+      FitOptions options;
+      options.method = method;
+      for (const Wedge& w : fit_patches(mesh, picture, options).wedges) {
+        ASSERT_LT((w.value - 0.5f).abs().maxCoeff(), 10) << columns;
+      }
+    }
+  }
+}
+
 TEST(TornFit, IsTheSameForAnyNumberOfThreads) {
   const PatchMesh start = torn_patches(7, false);
   const Raster picture = render(single_layer(torn_patches(8, false), 150, 100));

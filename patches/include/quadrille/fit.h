@@ -17,7 +17,7 @@ struct FitOptions {
   FitMethod method = FitMethod::hermite;
   /// Tikhonov weight toward the Bessel solution, as a share of what the pixels weigh: every square
   /// pixel of a patch adds this weight times the mean squared distance of its colours from that
-  /// solution. Positive.
+  /// solution; more where tears leave the colours of pixels' parts open. Positive.
   double regularization = 1e-4;
   /// The conjugate gradients start at the Bessel solution and stop when its residual has fallen by
   /// this factor; in (0, 1).
