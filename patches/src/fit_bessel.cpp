@@ -47,6 +47,8 @@ class Combination {
 /// A tear is seen through the pixels' box and the tent of bilinear sampling, together up to 2.1
 /// pixels wide to either side; beyond, a sample has the colour of its own side.
 constexpr double kTornInset = 2;
+/// As a share of the way to the middle of the wedge's quads, where other wedges' samples may lie.
+constexpr double kMostInset = 2.0 / 3;
 
 /// Where the picture is sampled for each wedge.
 class SamplePoints {
@@ -90,7 +92,7 @@ class SamplePoints {
       keep_off(h, mesh.tip(h));
       keep_off(QuadMesh::prev(h), mesh.origin(QuadMesh::prev(h)));
     }
-    return p + inward * std::min(1.0, kTornInset / std::max(distance, 1e-300));
+    return p + inward * std::min(kMostInset, kTornInset / std::max(distance, 1e-300));
   }
 
   const PatchMesh& patches_;

@@ -13,6 +13,9 @@
 namespace quadrille {
 namespace {
 
+/// Damping of what a mixture leaves open, beside that of every square pixel: else slivers between
+/// tears would take any colour to explain their pixels.
+constexpr double kOpenWeight = 300;
 constexpr double kBlockFloor = 1e-5;  // relative to a unit diagonal
 
 /// Adds the samples of the block's patch number `local` to the sums.
@@ -31,10 +34,8 @@ void add_samples(const SampleBlock& samples, int local, const Raster& picture,
       batch.u[i] = samples.u[sample];
       batch.v[i] = samples.v[sample];
       const std::uint32_t pixel = samples.pixel[sample];
-      const bool counts = i < count && (pixel == SampleBlock::kNoPixel || !mixed.contains(pixel));
-      batch.weight[i] = counts ? 1.0f : 0.0f;
-      const Color color = pixel == SampleBlock::kNoPixel ? Color(Color::Zero())
-                                                         : premultiplied_pixel(picture, pixel);
+      batch.weight[i] = i < count && !mixed.contains(pixel) ? 1.0f : 0.0f;
+      const Color color = premultiplied_pixel(picture, pixel);
       for (int c = 0; c < 4; ++c) batch.color[c][i] = color[c];
     }
     for (; exception != samples.exceptions.end() && exception->sample < first + count;
@@ -120,7 +121,8 @@ void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, doub
       ControlColors model;
       control_colors(patches, q, corners, model);
       FitSums sums{};
-      const auto damping = uniform_moments(regularization * quad_area(patches.mesh, q));
+      const auto damping = uniform_moments(
+          regularization * (quad_area(patches.mesh, q) + kOpenWeight * mixed_.open_area(q)));
       std::copy(damping.begin(), damping.end(), sums.moments);
       add_samples(samples, local, picture, mixed_, model, sums);
       groups_[q / kLaneCount].set(q % kLaneCount, corners, sums.moments,

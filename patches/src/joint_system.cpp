@@ -62,11 +62,11 @@ void add_samples(const SampleBlock& samples, int local, const Raster& picture, c
     batch.count = 0;
   };
   const auto width = static_cast<std::uint32_t>(picture.width);
-  std::uint32_t expected = SampleBlock::kNoPixel;
+  std::uint32_t expected = ~std::uint32_t{0};
   int x = 0, y = 0;
   for (std::size_t sample = samples.begin[local]; sample < samples.begin[local + 1]; ++sample) {
     const std::uint32_t pixel = samples.pixel[sample];
-    if (pixel == SampleBlock::kNoPixel || mixed.contains(pixel) != at_mixed) continue;
+    if (mixed.contains(pixel) != at_mixed) continue;
     ++x;
     if (pixel != expected || x == picture.width) {
       x = static_cast<int>(pixel % width);

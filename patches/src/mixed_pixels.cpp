@@ -11,9 +11,19 @@
 namespace quadrille {
 namespace {
 
-bool has_tears(const QuadMesh& mesh) {
+/// True for edges that the renderer may find crossing pixels: tears, and the border of the mesh
+/// except along the picture's sides.
+bool may_cross_pixels(const QuadMesh& mesh, int e, const Raster& picture) {
+  if (!mesh.is_border(e)) return mesh.is_tear(e);
+  const int h = mesh.halfedge(e);
+  const Eigen::Array2d p = mesh.vertices[mesh.origin(h)], q = mesh.vertices[mesh.tip(h)];
+  const Eigen::Array2d size(picture.width, picture.height);
+  return !((p == 0 && q == 0) || (p == size && q == size)).any();
+}
+
+bool has_mixed_pixels(const QuadMesh& mesh, const Raster& picture) {
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.is_tear(e) && !mesh.is_border(e)) return true;
+    if (may_cross_pixels(mesh, e, picture)) return true;
   }
   return false;
 }
@@ -45,15 +55,23 @@ struct MixedPixels::BlockRows {
   struct Row {
     int x, y;
     float covered = 0;
-    std::vector<Entry> entries;
+    Eigen::Vector2d center = {0, 0};  ///< of the covered part, times its area
+    std::vector<Entry> entries = {};
+
+    /// The picture's colour of the covered part, times its area.
+    Eigen::Array4d color(const Raster& picture) const {
+      if (covered >= 1) return premultiplied_pixel(picture, x, y).cast<double>();
+      return sample_bilinear(picture, center / covered) * covered;
+    }
   };
   std::vector<Row> rows;
+  std::vector<std::pair<int, double>> open_areas;  ///< patch, area
 
   void find(const PatchScan& scan, std::span<const int> seen, const SampleWindow& window) {
     const PatchMesh& patches = scan.patches();
     OutlinePixels outline;
     outline.find(scan, seen, window);
-    for (const OutlinePixels::Pixel& p : outline.pixels()) rows.push_back({p.x, p.y, 0, {}});
+    for (const OutlinePixels::Pixel& p : outline.pixels()) rows.push_back({p.x, p.y});
     if (rows.empty()) return;
     std::vector<OutlinePixels::Share> shares;
     for (const int q : seen) {
@@ -61,10 +79,14 @@ struct MixedPixels::BlockRows {
       if (shares.empty()) continue;
       const std::array<CornerMap, 4> corners = corner_maps(patches, q);
       const PatchInverse inverse(patch_geometry(patches, q));
+      open_areas.emplace_back(q, 0);
       for (const OutlinePixels::Share& share : shares) {
+        open_areas.back().second += share.weight * (1 - share.weight);
         Row& row = rows[share.pixel];
-        const auto factors = corner_factors(corners, inverse({row.x + share.x, row.y + share.y}));
+        const Eigen::Vector2d point(row.x + share.x, row.y + share.y);
+        const auto factors = corner_factors(corners, inverse(point));
         row.covered += share.weight;
+        row.center += point * share.weight;
         for (int k = 0; k < 4; ++k) {
           add(row, patches.wedge_of_corner[4 * q + k], factors[k] * share.weight);
         }
@@ -88,8 +110,8 @@ struct MixedPixels::BlockRows {
   }
 };
 
-MixedPixels::MixedPixels(const PatchMesh& patches, const Raster& picture) : width_(picture.width) {
-  if (!has_tears(patches.mesh)) return;
+MixedPixels::MixedPixels(const PatchMesh& patches, const Raster& picture) {
+  if (!has_mixed_pixels(patches.mesh, picture)) return;
   const SampleWindow whole = {0, 0, picture.width, picture.height};
   const PatchScan scan(patches, SampleGrid{});
   std::vector<int> all(patches.patch_count());
@@ -106,11 +128,14 @@ MixedPixels::MixedPixels(const PatchMesh& patches, const Raster& picture) : widt
   });
 
   is_mixed_.assign(static_cast<std::size_t>(picture.width) * picture.height, 0);
+  open_area_.assign(patches.patch_count(), 0);
   row_begin_.push_back(0);
   for (const BlockRows& block : blocks) {
+    for (const auto& [patch, area] : block.open_areas) open_area_[patch] += area;
     for (const BlockRows::Row& row : block.rows) {
-      is_mixed_[static_cast<std::size_t>(row.y) * width_ + row.x] = 1;
-      Eigen::Array4d rest = premultiplied_pixel(picture, row.x, row.y).cast<double>() * row.covered;
+      pixels_.push_back(static_cast<std::size_t>(row.y) * picture.width + row.x);
+      is_mixed_[pixels_.back()] = 1;
+      Eigen::Array4d rest = row.color(picture);
       for (const Entry& e : row.entries) {
         const Wedge& w = patches.wedges[e.wedge];
         rest -= (w.value * e.factors[0] + w.dx * e.factors[1] + w.dy * e.factors[2] +
@@ -145,11 +170,7 @@ void MixedPixels::evaluate_residual() { values_ = residual_; }
 void MixedPixels::evaluate(const Vector& x) {
   for_each_range(static_cast<int>(values_.size()), [&](int begin, int end) {
     for (int r = begin; r < end; ++r) {
-      Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-      for (int i = row_begin_[r]; i < row_begin_[r + 1]; ++i) {
-        sum += x[entries_[i].wedge] * entries_[i].factors;
-      }
-      values_[r] = sum;
+      values_[r] = product(r, x);
     }
   });
 }

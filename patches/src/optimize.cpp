@@ -17,7 +17,6 @@
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
 #include "shape_energy.h"
-#include "torn_pixels.h"
 #include "vertex_steps.h"
 
 namespace quadrille {
@@ -63,12 +62,14 @@ class State {
   State(PatchMesh start, bool solved, const Raster& picture, const FitOptions& fit,
         const RunContext& context)
       : patches(std::move(start)), colors(patches, picture, fit.regularization, context, &samples) {
+    ColorSystem::Vector correction(patches.wedges.size(), WedgeUnknowns::Zero());
     if (!solved) {
       FitReport report;
-      add_correction(quadrille::solve(colors, fit, context, report), patches.wedges);
+      correction = quadrille::solve(colors, fit, context, report);
+      add_correction(correction, patches.wedges);
       iterations = report.iterations;
     }
-    show(picture);
+    show(picture, correction);
     shape_energy = total_shape_energy(patches.mesh);
   }
 
@@ -80,11 +81,11 @@ class State {
   double squared_error = 0, shape_energy = 0;
 
  private:
-  void show(const Raster& picture);
+  void show(const Raster& picture, const ColorSystem::Vector& correction);
   double show_patch(const SampleBlock& block, int local, const Raster& picture);
 };
 
-void State::show(const Raster& picture) {
+void State::show(const Raster& picture, const ColorSystem::Vector& correction) {
   mean = picture;
   if (picture.has_alpha()) {
     // Where no patch lies the picture stands for it.
@@ -100,15 +101,15 @@ void State::show(const Raster& picture) {
     }
   });
   for (const double e : errors) squared_error += e;
-  for (const TornPixel& torn : torn_pixels(patches, picture.width, picture.height)) {
-    const Color given = premultiplied_pixel(picture, torn.pixel);
+  colors.mixed_pixels().for_each_rest(correction, [&](std::size_t pixel, const Color& rest) {
+    const Color given = premultiplied_pixel(picture, pixel);
     for (int c = 0; c < picture.channels; ++c) {
-      float& between = mean.data[std::size_t{torn.pixel} * picture.channels + c];
-      const double before = 2 * (given[c] - between), now = given[c] - torn.color[c];
-      squared_error += now * now - before * before;
-      between = 0.5f * (given[c] + torn.color[c]);
+      float& between = mean.data[pixel * picture.channels + c];
+      const double at_center = 2 * (given[c] - between), now = rest[c];
+      squared_error += now * now - at_center * at_center;
+      between = given[c] - 0.5f * rest[c];
     }
-  }
+  });
 }
 
 double State::show_patch(const SampleBlock& block, int local, const Raster& picture) {
@@ -125,7 +126,6 @@ double State::show_patch(const SampleBlock& block, int local, const Raster& pict
     evaluate_batch(model, channels, padded_count(count), u, v, shown);
     for (int i = 0; i < count; ++i) {
       const std::size_t pixel = block.pixel[first + i];
-      if (pixel == SampleBlock::kNoPixel) continue;
       float* const between = mean.data.data() + pixel * channels;
       float squares = 0;
       for (int c = 0; c < channels; ++c) {

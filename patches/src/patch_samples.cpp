@@ -65,27 +65,6 @@ class PatchLocator {
 
 bool on_outline(float u, float v) { return u <= 0 || u >= 1 || v <= 0 || v >= 1; }
 
-/// True for border edges inside the picture.
-bool is_rim(const QuadMesh& mesh, int h, const Raster& picture) {
-  if (mesh.twin(h) >= 0) return false;
-  const Eigen::Array2d p = mesh.vertices[mesh.origin(h)], q = mesh.vertices[mesh.tip(h)];
-  const Eigen::Array2d size(picture.width, picture.height);
-  return !((p == 0 && q == 0) || (p == size && q == size)).any();
-}
-
-/// Calls visit(uv) for places about a pixel apart along side k of the patch.
-template <class Visit>
-void for_each_rim_place(const BicubicHermite<Eigen::Vector2d>& geometry, int k,
-                        const Visit& visit) {
-  const double length = (geometry.value[(k + 1) & 3] - geometry.value[k]).norm();
-  const int count = std::max(1, static_cast<int>(std::lround(length)));
-  for (int i = 0; i < count; ++i) {
-    const double t = (i + 0.5) / count;
-    const Eigen::Vector2d places[4] = {{t, 0}, {1, t}, {1 - t, 1}, {0, 1 - t}};
-    visit(places[k]);
-  }
-}
-
 }  // namespace
 
 SampleBlock find_samples(const PatchMesh& patches, const PatchScan& scan, const Raster& picture,
@@ -115,15 +94,6 @@ SampleBlock find_samples(const PatchMesh& patches, const PatchScan& scan, const 
       for (std::size_t i = before; i < samples.pixel.size(); ++i) {
         if (!on_outline(samples.u[i], samples.v[i])) continue;
         samples.exceptions.push_back({i, picture_at(samples.u[i], samples.v[i])});
-      }
-      for (int k = 0; k < 4; ++k) {
-        if (!is_rim(patches.mesh, 4 * q + k, picture)) continue;
-        for_each_rim_place(geometry, k, [&](const Eigen::Vector2d& uv) {
-          samples.exceptions.push_back({samples.pixel.size(), picture_at(uv.x(), uv.y())});
-          samples.pixel.push_back(SampleBlock::kNoPixel);
-          samples.u.push_back(static_cast<float>(uv.x()));
-          samples.v.push_back(static_cast<float>(uv.y()));
-        });
       }
     }
     samples.begin.push_back(samples.pixel.size());

@@ -16,11 +16,8 @@ inline int sample_block_count(const PatchMesh& patches) {
 }
 
 /// Where a block of patches is compared with a picture: at the pixel centres that each patch
-/// covers, and at places a pixel apart along those borders of the mesh that lie inside the picture,
-/// where no pixel centres beyond the border hold the colours.
+/// covers.
 struct SampleBlock {
-  static constexpr std::uint32_t kNoPixel = ~std::uint32_t{0};
-
   /// A sample that is not compared with its pixel's colour but with this premultiplied one.
   struct Exception {
     std::size_t sample;
@@ -30,7 +27,7 @@ struct SampleBlock {
   int first_patch = 0;
   std::vector<std::size_t> begin;     ///< of the patches' samples; one more than patches
   std::vector<float> u, v;            ///< parameters, in [0, 1]
-  std::vector<std::uint32_t> pixel;   ///< y * width + x, or kNoPixel along a border
+  std::vector<std::uint32_t> pixel;   ///< y * width + x
   std::vector<Exception> exceptions;  ///< ascending
 
   int patch_count() const { return static_cast<int>(begin.size()) - 1; }

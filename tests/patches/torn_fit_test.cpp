@@ -130,6 +130,34 @@ TEST(TornFit, KeepsTheColourInsideASilhouette) {
   }
 }
 
+/// The quads inside the circle alone, as a mesh region.
+QuadMesh inside_of(const QuadMesh& disc, int columns, int rings_inside) {
+  const int around = 4 * columns;
+  const int vertices = (columns + 1) * (columns + 1) + rings_inside * around;
+  const int quads = columns * columns + rings_inside * around;
+  return {{disc.vertices.begin(), disc.vertices.begin() + vertices},
+          {disc.quads().begin(), disc.quads().begin() + quads}};
+}
+
+TEST(TornFit, ContinuesThePictureAtTheBorderOfARegion) {
+  const DiscMesh disc = disc_mesh(4, 2, 1, 64, 60, {30.7, 31.2}, 21.4);
+  const QuadMesh region = inside_of(disc.mesh, 4, 2);
+  const Raster picture = paint_box_filtered(64, 60, 3, 1, [](double x, double y) -> Array4d {
+    return {0.01 * x, 0.9 - 0.01 * y, 0.3 + 0.005 * (x + y), 1};
+  });
+  for (const FitMethod method : {FitMethod::bessel, FitMethod::bessel_ls, FitMethod::hermite}) {
+    FitOptions options;
+    options.method = method;
+    const PatchMesh patches = fit_patches(region, picture, options);
+    for (int h = 0; h < region.halfedge_count(); ++h) {
+      const Vector2d p = region.vertices[region.origin(h)];
+      const Wedge& w = patches.wedges[patches.wedge_of_corner[h]];
+      EXPECT_NEAR(w.value[0], 0.01 * p.x(), 1e-5);
+      EXPECT_NEAR(w.value[1], 0.9 - 0.01 * p.y(), 1e-5);
+    }
+  }
+}
+
 TEST(TornFit, FollowsAJumpThatEndsInThePicture) {
   const int width = 64, height = 64;
   const double top = 25.3, bottom = 38.9, end = 40;
@@ -201,11 +229,30 @@ TEST(MixedPixels, AgreeWithTheRenderer) {
   }
 }
 
-TEST(MixedPixels, AreNoneWithoutTears) {
+TEST(MixedPixels, AreNoneWithoutTearsInAPictureThatIsFilled) {
   const PatchMesh patches = random_patches(5, 4, 50, 40, 2);
   const MixedPixels mixed(patches, Raster(50, 40, 3));
   EXPECT_TRUE(mixed.empty());
   EXPECT_FALSE(mixed.contains(20, 20));
+}
+
+TEST(TornFit, SliversBetweenTearsStaySane) {
+  Random random(5);
+  Raster picture(96, 96, 3);
+  for (float& c : picture.data) c = static_cast<float>(random.uniform(0.3, 0.7));
+  for (const int columns : {16, 32, 48}) {
+    QuadMesh mesh = random_patches(columns, columns, 96, 96, 3).mesh;
+    for (std::uint8_t& flags : mesh.edge_flags) {
+      if (random.uniform() < 0.4) flags |= kTearEdge;
+    }
+    for (const FitMethod method : {FitMethod::bessel, FitMethod::bessel_ls, FitMethod::hermite}) {
+      FitOptions options;
+      options.method = method;
+      for (const Wedge& w : fit_patches(mesh, picture, options).wedges) {
+        ASSERT_LT((w.value - 0.5f).abs().maxCoeff(), 10) << columns;
+      }
+    }
+  }
 }
 
 TEST(TornFit, IsTheSameForAnyNumberOfThreads) {

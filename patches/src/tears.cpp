@@ -1,0 +1,266 @@
+#include "quadrille/tears.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "patch_scan.h"
+#include "picture_sampling.h"
+#include "quadrille/error.h"
+#include "quadrille/patch_geometry.h"
+#include "quadrille/render.h"
+
+namespace quadrille {
+namespace {
+
+/// Differences below half a step of 8 bits are worth nothing.
+constexpr double kInvisible = 0.25 / 255 / 255;
+/// The error of a jump reaches this far into the quads beside it when it cannot be torn, in quads.
+constexpr int kReach = 4;
+/// A chain whose drop per edge is below this share of a neighbour's waits until that one is torn.
+constexpr double kStrongShare = 0.25;
+constexpr int kRounds = 4;
+
+void check(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains,
+           const TearOptions& options) {
+  const auto reject = [](const std::string& message) {
+    throw Error(ErrorCode::invalid_argument, message);
+  };
+  if (!(options.relative_drop >= 0 && options.relative_drop <= 1)) {
+    reject("the relative drop asked of a tear is " + std::to_string(options.relative_drop) +
+           "; use a share between 0 and 1 such as 0.1");
+  }
+  if (!(options.price >= 0) || !std::isfinite(options.price)) {
+    reject("the price of a tear's numbers is " + std::to_string(options.price) +
+           "; use a number from 0 up such as 6");
+  }
+  for (const std::vector<int>& chain : chains) {
+    for (const int e : chain) {
+      if (e < 0 || e >= mesh.edge_count()) {
+        reject("a chain to tear names edge " + std::to_string(e) + " of " +
+               std::to_string(mesh.edge_count()) + "; give edges of the mesh");
+      }
+    }
+  }
+}
+
+/// The mesh with all chains marked as features, and those with a flag torn.
+QuadMesh with_chains(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains,
+                     const std::vector<char>& is_torn) {
+  QuadMesh result = mesh;
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    for (const int e : chains[c]) {
+      result.edge_flags[e] |= kFeatureEdge | (is_torn[c] ? kTearEdge : 0);
+    }
+  }
+  return result;
+}
+
+/// Squared difference per pixel between the picture and the patches drawn.
+std::vector<double> squared_errors(const PatchMesh& patches, const Raster& picture,
+                                   const RunContext& context) {
+  VectorImage image;
+  image.width = picture.width;
+  image.height = picture.height;
+  image.layers.emplace_back().patches = patches;
+  const Raster drawn = render(image, {}, context);
+  std::vector<double> errors;
+  errors.reserve(static_cast<std::size_t>(picture.width) * picture.height);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const Color shown = premultiplied_pixel(drawn, x, y);
+      Color wanted = premultiplied_pixel(picture, x, y);
+      // An opaque picture goes on beyond the border of the mesh, where nothing is drawn.
+      if (!picture.has_alpha()) wanted *= shown.w();
+      const Color difference = shown - wanted;
+      errors.push_back(difference.cast<double>().square().sum());
+    }
+  }
+  return errors;
+}
+
+/// The squared errors of the picture when some of the chains are torn.
+struct Trial {
+  PatchMesh patches;
+  std::vector<double> errors;  // #pixels
+
+  /// Geometry from `tangents`.
+  Trial(QuadMesh mesh, const std::vector<std::array<Eigen::Vector2d, 2>>& tangents,
+        const Raster& picture, const FitOptions& fit, const RunContext& context)
+      : patches(straight_patches(std::move(mesh))) {
+    patches.edge_tangents = tangents;
+    fit_colors(patches, picture, fit, context);
+    errors = squared_errors(patches, picture, context);
+  }
+};
+
+std::vector<std::array<Eigen::Vector2d, 2>> smooth_tangents(const QuadMesh& mesh) {
+  PatchMesh patches = straight_patches(mesh);
+  set_bessel_tangents(patches);
+  guard_folds(patches);
+  return patches.edge_tangents;
+}
+
+/// Number of wedges per vertex.
+std::vector<int> wedge_counts(const PatchMesh& patches) {
+  std::vector<int> count(patches.mesh.vertex_count(), 0);
+  std::vector<char> seen(patches.wedges.size(), 0);
+  for (int h = 0; h < patches.mesh.halfedge_count(); ++h) {
+    if (!std::exchange(seen[patches.wedge_of_corner[h]], 1)) ++count[patches.mesh.origin(h)];
+  }
+  return count;
+}
+
+/// The surroundings of the chains.
+class Neighbourhoods {
+ public:
+  Neighbourhoods(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains) : mesh_(mesh) {
+    for (const std::vector<int>& chain : chains) {
+      std::vector<int>& vertices = vertices_.emplace_back();
+      for (const int e : chain) {
+        if (mesh.is_border(e)) continue;
+        const int h = mesh.halfedge(e);
+        vertices.push_back(mesh.origin(h));
+        vertices.push_back(mesh.tip(h));
+      }
+      make_unique(vertices);
+    }
+  }
+
+  const std::vector<int>& vertices(std::size_t chain) const { return vertices_[chain]; }
+
+  /// The quads that touch one of the vertices, ascending.
+  std::vector<int> quads(const std::vector<int>& vertices) const {
+    std::vector<int> found;
+    for (const int v : vertices) {
+      for (const int h : mesh_.fan(v)) found.push_back(QuadMesh::quad_of(h));
+    }
+    make_unique(found);
+    return found;
+  }
+
+  /// Per chain the others within kReach quads.
+  std::vector<std::vector<int>> neighbours() const {
+    std::vector<std::vector<int>> chains_at(mesh_.vertex_count());
+    for (std::size_t c = 0; c < vertices_.size(); ++c) {
+      for (const int v : vertices_[c]) chains_at[v].push_back(static_cast<int>(c));
+    }
+    std::vector<std::vector<int>> found(vertices_.size());
+    for (std::size_t c = 0; c < vertices_.size(); ++c) {
+      std::vector<int> reached = vertices_[c];
+      for (int ring = 0; ring < kReach; ++ring) {
+        const std::vector<int> beside = quads(reached);
+        reached.clear();
+        for (const int q : beside) {
+          reached.insert(reached.end(), mesh_.quads()[q].begin(), mesh_.quads()[q].end());
+        }
+        make_unique(reached);
+      }
+      for (const int v : reached) {
+        found[c].insert(found[c].end(), chains_at[v].begin(), chains_at[v].end());
+      }
+      make_unique(found[c]);
+      std::erase(found[c], static_cast<int>(c));
+    }
+    return found;
+  }
+
+ private:
+  const QuadMesh& mesh_;
+  std::vector<std::vector<int>> vertices_;
+
+  static void make_unique(std::vector<int>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+};
+
+/// Compares trials chain by chain with the one in which all are torn.
+class Judge {
+ public:
+  Judge(const Neighbourhoods& near, const Trial& all, const Raster& picture,
+        const TearOptions& options)
+      : near_(near),
+        all_(all),
+        scan_(all.patches, SampleGrid{}),
+        size_{0, 0, picture.width, picture.height},
+        channels_(picture.channels),
+        options_(options),
+        all_wedges_(wedge_counts(all.patches)) {}
+
+  /// How much the squared error falls when the chain is torn too; 0 when that does not pay.
+  double drop(std::size_t chain, const Trial& before, const std::vector<int>& wedges_before) const {
+    int added_wedges = 0;
+    for (const int v : near_.vertices(chain)) added_wedges += all_wedges_[v] - wedges_before[v];
+    if (added_wedges <= 0) return 0;
+    double whole = 0, torn = 0, values = 0;
+    for (const int q : near_.quads(near_.vertices(chain))) {
+      scan_.scan(q, intersection(scan_.bounds(q), size_), [&](int y, int x_begin, int x_end) {
+        for (int x = x_begin; x < x_end; ++x) {
+          const std::size_t i = static_cast<std::size_t>(y) * size_.x_end + x;
+          whole += before.errors[i];
+          torn += all_.errors[i];
+          values += channels_;
+        }
+      });
+    }
+    const double variance = (values > 0 ? torn / values : 0) + kInvisible;
+    const double numbers = 4.0 * channels_ * added_wedges;
+    const double least =
+        std::max(options_.relative_drop * whole, options_.price * numbers * variance);
+    return whole - torn > least ? whole - torn : 0;
+  }
+
+ private:
+  const Neighbourhoods& near_;
+  const Trial& all_;
+  PatchScan scan_;
+  SampleWindow size_;
+  int channels_;
+  const TearOptions& options_;
+  std::vector<int> all_wedges_;
+};
+
+}  // namespace
+
+std::vector<char> judge_tears(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains,
+                              const Raster& picture, const FitOptions& fit,
+                              const TearOptions& options, const RunContext& context) {
+  check(mesh, chains, options);
+  const bool strong = options.mode == TearOptions::Mode::strong;
+  std::vector<char> is_torn(chains.size(), strong);
+  if (options.mode != TearOptions::Mode::automatic || chains.empty()) return is_torn;
+
+  const QuadMesh everything = with_chains(mesh, chains, std::vector<char>(chains.size(), 1));
+  const auto tangents = smooth_tangents(everything);
+  const Trial all(everything, tangents, picture, fit, context);
+  const Neighbourhoods near(all.patches.mesh, chains);
+  const auto neighbours = near.neighbours();
+  const Judge judge(near, all, picture, options);
+  for (int round = 0; round < kRounds; ++round) {
+    const Trial now(with_chains(mesh, chains, is_torn), tangents, picture, fit, context);
+    const std::vector<int> wedges = wedge_counts(now.patches);
+    std::vector<double> drop(chains.size(), 0);  // per edge
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      if (!is_torn[c])
+        drop[c] = judge.drop(c, now, wedges) / std::max(1.0, double(chains[c].size()));
+    }
+    bool is_waiting = false;
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      if (!(drop[c] > 0)) continue;
+      const bool is_strong = std::all_of(neighbours[c].begin(), neighbours[c].end(),
+                                         [&](int n) { return drop[c] >= kStrongShare * drop[n]; });
+      if (is_strong || round + 1 == kRounds) {
+        is_torn[c] = 1;
+      } else {
+        is_waiting = true;
+      }
+    }
+    if (!is_waiting) break;
+  }
+  return is_torn;
+}
+
+}  // namespace quadrille
