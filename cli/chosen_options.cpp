@@ -9,6 +9,11 @@ namespace {
 
 constexpr double kEditableShapeWeight = 0.08;
 
+TearOptions::Mode tear_mode(const std::string& name) {
+  using Mode = TearOptions::Mode;
+  return name == "off" ? Mode::off : name == "strong" ? Mode::strong : Mode::automatic;
+}
+
 std::string reason(const Content& content) {
   std::string text =
       fmt::format("{:.0f} % flat, {} colours", 100 * content.flat_share, content.main_colors);
@@ -33,6 +38,7 @@ ChosenOptions choose_options(const MeshOptions& mesh, const Raster& picture, Obs
   options.fit.method = mesh.fit == "bessel"      ? FitMethod::bessel
                        : mesh.fit == "bessel-ls" ? FitMethod::bessel_ls
                                                  : FitMethod::hermite;
+  if (!mesh.tears.empty()) options.tears.mode = tear_mode(mesh.tears);
   options.optimize.rounds = mesh.optimize;
   if (mesh.editable) options.optimize.shape_weight = kEditableShapeWeight;
   options.lattice = mesh.lattice;

@@ -93,6 +93,12 @@ void declare_mesh_options(CLI::App& parser, MeshOptions& options) {
       ->check(CLI::IsMember({"bessel", "bessel-ls", "hermite"}))
       ->capture_default_str();
   parser
+      .add_option(
+          "--tears", options.tears,
+          "where colours may jump: auto (along the sharp edges where that lowers the error), "
+          "strong (along all of them) or off; the preset's by default")
+      ->check(CLI::IsMember({"auto", "off", "strong"}));
+  parser
       .add_option("--optimize", options.optimize,
                   "rounds that move the vertices to where they reproduce the picture better, 0 for "
                   "none; without effect on --fit bessel")

@@ -26,6 +26,7 @@ struct MeshOptions {
   std::string preset = "auto";
   std::optional<int> quads;  ///< absent: the preset's
   std::string fit = "hermite";
+  std::string tears;  ///< empty: the preset decides
   int optimize = OptimizeOptions{}.rounds;
   bool editable = false;
   bool lattice = false;

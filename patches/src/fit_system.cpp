@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
 #include "fit_lanes.h"
 #include "parallel_ranges.h"
@@ -16,6 +17,10 @@ namespace {
 /// Damping of what a mixture leaves open, beside that of every square pixel: else slivers between
 /// tears would take any colour to explain their pixels.
 constexpr double kOpenWeight = 300;
+// A vertex has four unknowns per channel, so patches of few pixels are damped more: by this power
+// of the number of pixels that suffices over theirs, up to a limit. Without it colours between the
+// pixels of such patches are anything, which shows when the picture is enlarged.
+constexpr double kAmplePixels = 28, kScarcityPower = 4, kMostScarcity = 500;
 constexpr double kBlockFloor = 1e-5;  // relative to a unit diagonal
 
 /// Adds the samples of the block's patch number `local` to the sums.
@@ -51,6 +56,10 @@ double quad_area(const QuadMesh& mesh, int q) {
   const Eigen::Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
   const Eigen::Vector2d e = mesh.vertices[c[3]] - mesh.vertices[c[1]];
   return std::abs(0.5 * (d.x() * e.y() - d.y() * e.x()));
+}
+
+double scarcity(double pixels) {
+  return std::min(kMostScarcity, 1 + std::pow(kAmplePixels / pixels, kScarcityPower));
 }
 
 WedgeUnknowns unknowns_of(const Wedge& w) {
@@ -121,8 +130,9 @@ void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, doub
       ControlColors model;
       control_colors(patches, q, corners, model);
       FitSums sums{};
+      const double area = quad_area(patches.mesh, q);
       const auto damping = uniform_moments(
-          regularization * (quad_area(patches.mesh, q) + kOpenWeight * mixed_.open_area(q)));
+          regularization * (area * scarcity(area) + kOpenWeight * mixed_.open_area(q)));
       std::copy(damping.begin(), damping.end(), sums.moments);
       add_samples(samples, local, picture, mixed_, model, sums);
       groups_[q / kLaneCount].set(q % kLaneCount, corners, sums.moments,

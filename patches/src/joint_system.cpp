@@ -4,7 +4,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 #include "parallel_ranges.h"
 #include "picture_sampling.h"

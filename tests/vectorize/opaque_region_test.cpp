@@ -178,7 +178,9 @@ TEST(OpaqueRegion, RimIsOpaqueAndTheInsideKeepsItsAlpha) {
 TEST(OpaqueRegion, SamplesAreReproducedBetterThanByAMeshOfTheWhole) {
   for (const char* name : {"ring_256_alpha.png", "pepper_256_alpha.png", "flower_256_alpha.png"}) {
     const Raster picture = load_image(fs::path(QUADRILLE_SOURCE_DIR) / "samples/pictures" / name);
-    const auto mae = [&](const VectorizeOptions& options) {
+    // As meshed: a mesh of the whole may move its vertices to the outline afterwards.
+    const auto mae = [&](VectorizeOptions options) {
+      options.optimize.rounds = 0;
       return compare(picture, render(vectorize(picture, options).image)).mae;
     };
     const double opaque = mae(opaque_with(1000)), whole = mae({.quads = 1000});

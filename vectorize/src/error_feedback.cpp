@@ -124,7 +124,7 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
   StageClock clock(context);
   FieldGrid<float> error = squared_error(shown, fitted);
   const double edge = 2 * std::sqrt(1.0 * picture.width * picture.height / options.quads);
-  if (whole && options.chain_share > 0) {
+  if (whole && options.chain_share > 0 && options.tears.mode != TearOptions::Mode::off) {
     quads.chains = feature_chains(shown, options.chains, context);
     keep_worthwhile(quads.chains, error, edge, options.quads / 4.0, options.least_chain_gain);
     shed_weak_chains(quads.chains, edge, options.chain_share * options.quads / 4);

@@ -35,6 +35,11 @@ void check(const VectorizeOptions& options) {
   check_options(options.position);
   check_options(options.snap);
   check_options(options.chains);
+  if (options.feedback < 0) {
+    throw Error(
+        ErrorCode::invalid_argument,
+        "the number of feedback rounds is " + std::to_string(options.feedback) + "; use 0 or more");
+  }
   if (!(options.chain_share >= 0 && options.chain_share <= 1) || !(options.least_chain_gain >= 0)) {
     throw Error(ErrorCode::invalid_argument,
                 "the share of vertices on chains is from 0 to 1, and the least gain at least 0");

@@ -3,6 +3,7 @@
 
 #include "quadrille/mesh_region.h"
 #include "quadrille/patch_geometry.h"
+#include "quadrille/render.h"
 #include "stage_clock.h"
 
 namespace quadrille {
@@ -27,6 +28,15 @@ VectorizeReport describe(const Raster& picture, const Quadrangulation& quads,
   }
   report.misalignment_degrees = misalignment_degrees(quads.cross, quads.features);
   report.cross_field_phases = quads.cross.phases;
+  const QuadMesh& mesh = patches.mesh;
+  for (const std::vector<int>& chain : feature_edge_chains(mesh)) {
+    report.tears += mesh.is_tear(chain.front());
+  }
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (!mesh.is_tear(e)) continue;
+    const int h = mesh.halfedge(e);
+    report.tear_length += (mesh.vertices[mesh.tip(h)] - mesh.vertices[mesh.origin(h)]).norm();
+  }
   for (int q = 0; q < patches.patch_count(); ++q) {
     report.folded += !certify_fold_free(patch_geometry(patches, q));
   }
@@ -41,6 +51,29 @@ VectorImage picture_of(const Raster& picture, PatchMesh patches) {
   return image;
 }
 
+bool is_lattice(const Quadrangulation& quads) { return quads.scale.along_x.data.empty(); }
+
+/// What a fit to the mesh shows at scale 1.
+Raster drawn(const QuadMesh& mesh, const Raster& shown, const FitOptions& fit,
+             const RunContext& context) {
+  return render(picture_of(shown, fit_patches(mesh, shown, fit, context)), {}, context);
+}
+
+/// Tears the chains of feature edges that are worth it; returns the number of candidates.
+int tear_chains(QuadMesh& mesh, const Raster& shown, const VectorizeOptions& options,
+                const RunContext& context) {
+  const std::vector<std::vector<int>> chains = feature_edge_chains(mesh);
+  if (chains.empty()) return 0;
+  const std::vector<char> is_torn =
+      judge_tears(mesh, chains, shown, options.fit, options.tears, context);
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    for (const int e : chains[c]) {
+      if (is_torn[c]) mesh.edge_flags[e] |= kTearEdge;
+    }
+  }
+  return static_cast<int>(chains.size());
+}
+
 }  // namespace
 
 Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
@@ -53,12 +86,18 @@ Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
   };
 
   Quadrangulation quads = quadrangulate(picture, options, recorded);
+  const Raster& shown = quads.outline.empty() ? picture : quads.inside;
+  for (int round = 0; round < options.feedback && !is_lattice(quads); ++round) {
+    refine_by_error(quads, picture, drawn(quads.mesh, shown, options.fit, recorded), options,
+                    recorded);
+  }
   StageClock clock(recorded);
+  const int chains = tear_chains(quads.mesh, shown, options, recorded);
+  clock.finish("tears");
   PatchMesh patches = straight_patches(std::move(quads.mesh));
   set_bessel_tangents(patches);
   guard_folds(patches);
   clock.finish("patches");
-  const Raster& shown = quads.outline.empty() ? picture : quads.inside;
   const FitReport fit = fit_colors(patches, shown, options.fit, recorded);
   clock.finish("colours", {{"iterations", fit.iterations}});
   const OptimizeReport optimized =
@@ -67,6 +106,7 @@ Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
 
   Vectorization result;
   result.report = describe(picture, quads, patches);
+  result.report.chains = chains;
   result.report.fit = fit;
   result.report.optimize = optimized;
   result.report.stages = std::move(stages);

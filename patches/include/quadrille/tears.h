@@ -24,6 +24,11 @@ struct TearOptions {
   double price = 6;
 };
 
+/// The chains of feature edges inside the mesh: they end where not exactly two feature edges meet,
+/// or where these turn by more than 45 degrees. Each lists its edges in order; every feature edge
+/// is in one chain.
+std::vector<std::vector<int>> feature_edge_chains(const QuadMesh& mesh);
+
 /// Decides which chains of edges to tear; returns a flag per chain.
 ///
 /// A chain is a list of edges of the mesh that follow each other along an image feature; edges on

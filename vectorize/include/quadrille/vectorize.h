@@ -11,6 +11,7 @@
 #include "quadrille/position_field.h"
 #include "quadrille/quad_extraction.h"
 #include "quadrille/scale_field.h"
+#include "quadrille/tears.h"
 #include "quadrille/vector_image.h"
 #include "quadrille/working_picture.h"
 
@@ -47,6 +48,10 @@ struct VectorizeOptions {
   /// least so many times that of the whole picture per vertex; 0 follows all.
   double least_chain_gain = 1;
   SnapOptions snap;
+  /// How many times the picture is meshed again where its fit errs; see refine_by_error().
+  int feedback = 1;
+  /// Which of the feature edges are torn; off follows no chains.
+  TearOptions tears;
   FitOptions fit;
   OptimizeOptions optimize;
   /// Use the plain axis-aligned lattice instead of the fields.
@@ -79,7 +84,9 @@ struct VectorizeReport {
   int positive_singularities = 0, negative_singularities = 0;
   double misalignment_degrees = 0;
   std::vector<CrossFieldPhase> cross_field_phases;
-  int folded = 0;  ///< patches whose geometry is not certified fold-free
+  int chains = 0, tears = 0;  ///< chains of feature edges, and those that are torn
+  double tear_length = 0;     ///< pixels, along the chords of torn edges
+  int folded = 0;             ///< patches whose geometry is not certified fold-free
   bool fallback = false;
   MeshRegion region = MeshRegion::whole;  ///< of the mesh that was made
   int components = 0, holes = 0;          ///< of the mesh
