@@ -135,7 +135,16 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
   const FieldGrid<float> map = wished_density(quads, options);
   for (std::size_t i = 0; i < map.data.size(); ++i) wish.density.data[i] *= map.data[i];
   clock.finish("error");
+  const QuadMesh before = quads.mesh;
   mesh_to_count(quads, picture, edge, options, wish, clock, context);
+  if (!is_valid(quads.mesh, quads.outline, picture) && !quads.chains.chains.empty()) {
+    quads.chains = {};
+    mesh_to_count(quads, picture, edge, options, wish, clock, context);
+  }
+  if (!is_valid(quads.mesh, quads.outline, picture)) {
+    quads.mesh = before;
+    return;
+  }
   snap_to_features(quads.mesh, shown, options.snap, context);
   clock.finish("snapping");
 }

@@ -72,7 +72,7 @@ std::vector<int> vertices_around(const QuadMesh& mesh, const std::vector<int>& q
 }  // namespace
 
 void release_bad_features(QuadMesh& mesh, std::span<VertexGuide> guides, double least_sine) {
-  constexpr int kRounds = 6, kReleaseSweeps = 12;
+  constexpr int kRounds = 12, kReleaseSweeps = 12;
   constexpr double kLooseHold = 0.02;
   std::vector<StarWedge> wedges;
   for (int round = 0; round < kRounds; ++round) {
