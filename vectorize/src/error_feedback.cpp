@@ -18,10 +18,12 @@ using Eigen::Vector2d;
 // The error of a quad of size h grows as C sqrt(h), and the wished h as C^(-1/2.5); so the density
 // 1 / h^2 grows as this power of the error times that of the size.
 constexpr double kErrorPower = 0.8, kSizePower = 1.6;
-constexpr double kLeastError = 0.15;    // of the mean: flat areas stay covered
-constexpr double kMostChange = 6;       // of the density, either way
-constexpr double kWindow = 0.35;        // sigma of the error's window, in edges
-constexpr double kBesideChain = 2;      // pixels on either side whose error a chain answers for
+constexpr double kLeastError = 0.15;   // of the mean: flat areas stay covered
+constexpr double kMostChange = 6;      // of the density, either way
+constexpr double kWindow = 0.35;       // sigma of the error's window, in edges
+constexpr double kBesideChain = 2;     // pixels on either side whose error a chain answers for
+constexpr double kWorstCorner = 0.18;  // sine; chains that lead to worse ones are not followed
+constexpr int kMeshRounds = 3;
 constexpr double kLeastCounted = 0.02;  // share of pixels that a mean takes for granted
 
 /// Squared distance of the premultiplied colours of each pixel.
@@ -111,6 +113,21 @@ void keep_worthwhile(ChainNetwork& network, const FieldGrid<float>& error, doubl
   });
 }
 
+/// Leaves out the chains that pass quads with a bad corner; false when there are none.
+bool leave_out_bad_chains(Quadrangulation& quads, double reach) {
+  std::vector<Vector2d> places;
+  for (int q = 0; q < quads.mesh.quad_count(); ++q) {
+    if (scaled_jacobian(quads.mesh, q) >= kWorstCorner) continue;
+    places.push_back(quads.mesh.vertices[quads.mesh.quads()[q][0]]);
+  }
+  return std::erase_if(quads.chains.chains, [&](const FeatureChain& chain) {
+           return std::any_of(places.begin(), places.end(), [&](const Vector2d& place) {
+             return std::any_of(chain.points.begin(), chain.points.end(),
+                                [&](const Vector2d& p) { return (p - place).norm() < reach; });
+           });
+         }) > 0;
+}
+
 }  // namespace
 
 void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster& fitted,
@@ -136,10 +153,13 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
   for (std::size_t i = 0; i < map.data.size(); ++i) wish.density.data[i] *= map.data[i];
   clock.finish("error");
   const QuadMesh before = quads.mesh;
-  mesh_to_count(quads, picture, edge, options, wish, clock, context);
-  if (!is_valid(quads.mesh, quads.outline, picture) && !quads.chains.chains.empty()) {
-    quads.chains = {};
+  for (int round = 0; round < kMeshRounds; ++round) {
     mesh_to_count(quads, picture, edge, options, wish, clock, context);
+    if (!is_valid(quads.mesh, quads.outline, picture)) {
+      quads.chains = {};
+    } else if (!leave_out_bad_chains(quads, edge)) {
+      break;
+    }
   }
   if (!is_valid(quads.mesh, quads.outline, picture)) {
     quads.mesh = before;

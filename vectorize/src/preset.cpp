@@ -12,6 +12,7 @@ constexpr int kIconSide = 512;
 constexpr double kIconTransparency = 0.05;
 constexpr double kGraphicFlatness = 0.4;
 constexpr int kGraphicColors = 128;
+constexpr double kGraphicSharpness = 0.8, kGraphicChainShare = 0.6;
 constexpr double kLeastPixelsPerQuad = 4;
 
 double rounded_to_two_digits(double value) {
@@ -28,8 +29,8 @@ const std::vector<Preset>& presets() {
       {"draft", "a quick look", 200, 100, 10'000},
       {"photo", "photographs and soft shading", 51.5, 500, 50'000},
       {"fine", "more detail, larger files", 20, 1'000, 200'000},
-      {"graphic", "drawings with flat colours", 29, 1'000, 30'000},
-      {"icon", "small pictures with transparency", 22, 500, 8'000},
+      {"graphic", "drawings with flat colours", 29, 1'000, 30'000, true},
+      {"icon", "small pictures with transparency", 22, 500, 8'000, true},
   };
   return all;
 }
@@ -66,6 +67,11 @@ int preset_quads(const Preset& preset, int width, int height) {
 
 void apply(const Preset& preset, const Raster& picture, VectorizeOptions& options) {
   options.quads = preset_quads(preset, picture.width, picture.height);
+  if (!preset.strong_tears) return;
+  options.tears.mode = TearOptions::Mode::strong;
+  options.chains.sharpness = kGraphicSharpness;
+  options.chain_share = kGraphicChainShare;
+  options.least_chain_gain = 0;
 }
 
 }  // namespace quadrille

@@ -15,6 +15,9 @@ struct Preset {
   std::string purpose;  ///< a few words for lists of presets
   double pixels_per_quad = 0;
   int min_quads = 0, max_quads = 0;  ///< bounds of the budget, for small and for large pictures
+  /// Tears along all sharp edges, down to softer ones, so that they stay sharp at any scale, rather
+  /// than where the error at the picture's own size asks for it.
+  bool strong_tears = false;
 };
 
 /// draft, photo, fine, graphic, icon.
@@ -32,7 +35,7 @@ const Preset& choose_preset(const Raster& picture);
 /// pixels_per_quad pixels, within the preset's bounds, and at most 1 per 4 pixels.
 int preset_quads(const Preset& preset, int width, int height);
 
-/// Sets what the preset decides: the number of quads. Everything else stays as it is.
+/// Sets what the preset decides: the number of quads and the tears. Everything else stays as it is.
 void apply(const Preset& preset, const Raster& picture, VectorizeOptions& options);
 
 }  // namespace quadrille
