@@ -1,0 +1,121 @@
+#include "document_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quadrille/patch_geometry.h"
+
+namespace quadrille {
+namespace {
+
+using EdgeTangents = std::array<Eigen::Vector2d, 2>;
+
+Eigen::Vector2d chord_of(const QuadMesh& mesh, int e) {
+  const int h = mesh.halfedge(e);
+  return mesh.vertices[mesh.tip(h)] - mesh.vertices[mesh.origin(h)];
+}
+
+/// The tangents of level `level`; level 0 gives `bessel` bit for bit.
+EdgeTangents drawn_in(const EdgeTangents& bessel, const Eigen::Vector2d& chord, int level) {
+  if (level == 0) return bessel;
+  EdgeTangents t;
+  for (int at = 0; at < 2; ++at) t[at] = chord + kKeep[level] * (bessel[at] - chord);
+  return t;
+}
+
+double distance(const EdgeTangents& a, const EdgeTangents& b) {
+  return std::max((a[0] - b[0]).lpNorm<Eigen::Infinity>(), (a[1] - b[1]).lpNorm<Eigen::Infinity>());
+}
+
+EdgeShape shape_of(const EdgeTangents& tangents, const EdgeTangents& bessel,
+                   const Eigen::Vector2d& chord, double position_step) {
+  // Far above rounding and far below a step.
+  const double tolerance = 1e-6 * position_step;
+  EdgeShape shape;
+  for (shape.level = 0; shape.level <= EdgeShape::kStraight; ++shape.level) {
+    if (distance(tangents, drawn_in(bessel, chord, shape.level)) <= tolerance) return shape;
+  }
+  bool any = false;
+  for (int i = 0; i < 4; ++i) {
+    const double deviation = tangents[i / 2][i % 2] - bessel[i / 2][i % 2];
+    const double steps = deviation / (kTangentSteps * position_step);
+    shape.deviation[i] = static_cast<int>(std::floor(steps + 0.5));
+    any = any || shape.deviation[i] != 0;
+  }
+  shape.level = any ? EdgeShape::kFree : 0;
+  return shape;
+}
+
+std::vector<EdgeShape> shapes_of(const PatchMesh& patches, double position_step) {
+  PatchMesh bessel;
+  bessel.mesh = patches.mesh;
+  bessel.edge_tangents.resize(patches.edge_tangents.size());
+  set_bessel_tangents(bessel);
+  std::vector<EdgeShape> shapes;
+  for (int e = 0; e < patches.mesh.edge_count(); ++e) {
+    shapes.push_back(shape_of(patches.edge_tangents[e], bessel.edge_tangents[e],
+                              chord_of(patches.mesh, e), position_step));
+  }
+  return shapes;
+}
+
+/// Shapes whose tangents are recognised as the same shapes again; some may have become simpler.
+void settle(std::vector<EdgeShape>& shapes, double position_step, PatchMesh& patches) {
+  for (;;) {
+    set_tangents(shapes, position_step, patches);
+    std::vector<EdgeShape> again = shapes_of(patches, position_step);
+    if (again == shapes) return;
+    shapes = std::move(again);
+  }
+}
+
+}  // namespace
+
+void set_tangents(const std::vector<EdgeShape>& shapes, double position_step, PatchMesh& patches) {
+  patches.edge_tangents.resize(shapes.size());
+  set_bessel_tangents(patches);
+  for (std::size_t e = 0; e < shapes.size(); ++e) {
+    EdgeTangents& t = patches.edge_tangents[e];
+    if (shapes[e].level != EdgeShape::kFree) {
+      t = drawn_in(t, chord_of(patches.mesh, static_cast<int>(e)), shapes[e].level);
+      continue;
+    }
+    for (int i = 0; i < 4; ++i) {
+      t[i / 2][i % 2] += shapes[e].deviation[i] * (kTangentSteps * position_step);
+    }
+  }
+}
+
+std::vector<EdgeShape> quantize_tangents(const PatchMesh& patches, const QuadMesh& mesh,
+                                         double position_step) {
+  std::vector<EdgeShape> shapes = shapes_of(patches, position_step);
+  PatchMesh moved;
+  moved.mesh = mesh;
+  settle(shapes, position_step, moved);
+  std::vector<char> must_hold(mesh.quad_count());
+  for (int q = 0; q < mesh.quad_count(); ++q) {
+    must_hold[q] = certify_fold_free(patch_geometry(patches, q));
+  }
+  std::vector<int> raised(mesh.edge_count(), 0);
+  for (;;) {
+    std::vector<int> raise;
+    for (int q = 0; q < mesh.quad_count(); ++q) {
+      if (!must_hold[q] || certify_fold_free(patch_geometry(moved, q))) continue;
+      for (int k = 0; k < 4; ++k) raise.push_back(mesh.edge(4 * q + k));
+    }
+    // A quad that folds even with straight edges stays as it is.
+    std::erase_if(raise, [&](int e) { return raised[e] == EdgeShape::kStraight; });
+    if (raise.empty()) return shapes;
+    std::sort(raise.begin(), raise.end());
+    raise.erase(std::unique(raise.begin(), raise.end()), raise.end());
+    for (const int e : raise) {
+      const int level = shapes[e].level;
+      raised[e] = level == EdgeShape::kFree ? EdgeShape::kStraight : std::max(raised[e], level) + 1;
+      shapes[e] = {std::min(raised[e], EdgeShape::kStraight), {}};
+      raised[e] = shapes[e].level;
+    }
+    settle(shapes, position_step, moved);
+  }
+}
+
+}  // namespace quadrille
