@@ -117,6 +117,38 @@ const fbs::Document& verified(const std::vector<std::uint8_t>& content, const st
   return *fbs::GetDocument(content.data());
 }
 
+std::vector<std::byte> read_file(const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ErrorCode::io_failure, "cannot read '" + path.string() + "': " + why);
+  };
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) refuse("it is a folder; name a document in it");
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) refuse(error.message() + "; check the path");
+  if (size > kLargestDocument) refuse("it is larger than 2 GiB; use an intact copy");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse("it cannot be opened; check its permissions");
+  std::vector<std::byte> bytes(size);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  if (file.gcount() != static_cast<std::streamsize>(size)) refuse("it ends too early; try again");
+  return bytes;
+}
+
+DocumentStorage::LayerStorage storage_of(const fbs::Layer& layer, const std::string& name) {
+  if (const auto* p = layer.patches_as_LosslessPatches()) {
+    const std::uint64_t bytes = p->quads()->size() + p->vertices()->size() +
+                                p->edge_flags()->size() + p->edge_tangents()->size() +
+                                p->wedge_of_corner()->size() + p->wedges()->size();
+    return {DocumentEncoding::lossless, 0, 0, bytes};
+  }
+  if (const auto* p = layer.patches_as_QuantizedPatches()) {
+    const std::uint64_t bytes =
+        p->connectivity()->size() + p->geometry()->size() + p->colors()->size();
+    return {DocumentEncoding::quantized, p->position_exponent(), p->color_step() * 255.0, bytes};
+  }
+  report_newer_document(name);
+}
+
 }  // namespace
 
 std::vector<std::byte> to_document(const VectorImage& image, const DocumentOptions& options) {
@@ -170,20 +202,19 @@ void save_document(const VectorImage& image, const std::filesystem::path& path,
 }
 
 VectorImage load_document(const std::filesystem::path& path) {
-  const auto refuse = [&](const std::string& why) {
-    throw Error(ErrorCode::io_failure, "cannot read '" + path.string() + "': " + why);
-  };
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) refuse("it is a folder; name a document in it");
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) refuse(error.message() + "; check the path");
-  if (size > kLargestDocument) refuse("it is larger than 2 GiB; use an intact copy");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse("it cannot be opened; check its permissions");
-  std::vector<std::byte> bytes(size);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (file.gcount() != static_cast<std::streamsize>(size)) refuse("it ends too early; try again");
-  return from_document(bytes, path.string());
+  return from_document(read_file(path), path.string());
+}
+
+DocumentStorage document_storage(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_file(path);
+  const UnpackedDocument document = unpack_document(bytes, path.string());
+  DocumentStorage storage;
+  storage.version = static_cast<int>(document.version);
+  storage.file_bytes = bytes.size();
+  for (const fbs::Layer* layer : *verified(document.content, path.string()).layers()) {
+    storage.layers.push_back(storage_of(*layer, path.string()));
+  }
+  return storage;
 }
 
 }  // namespace quadrille

@@ -23,6 +23,7 @@ ChannelPredictor::ChannelPredictor(const PatchMesh& patches, const std::vector<C
     : patches_(patches), frames_(frames), corners_(patches) {
   const QuadMesh& mesh = patches.mesh;
   const int count = static_cast<int>(patches.wedges.size());
+  for (int q = 0; q < mesh.quad_count(); ++q) geometry_.push_back(patch_geometry(patches, q));
   slope_of_.resize(count);
   for (int w = 0; w < count; ++w) {
     const Eigen::Vector2d p = mesh.vertices[vertex_of(w)];
@@ -135,7 +136,7 @@ Prediction ChannelPredictor::predict_twist(int wedge) const {
   int known = 0;
   for (const int h : corners_[wedge]) {
     const int q = QuadMesh::quad_of(h), k = QuadMesh::corner_of(h);
-    const BicubicHermite<Eigen::Vector2d> geometry = patch_geometry(patches_, q);
+    const BicubicHermite<Eigen::Vector2d>& geometry = geometry_[q];
     const int sign = twist_sign(mesh, h);
     const auto at = [&](int corner) { return wedge_at(4 * q + corner); };
     const double su = (k == 1 || k == 2) ? -1 : 1, sv = k >= 2 ? -1 : 1;

@@ -34,6 +34,7 @@ class ChannelPredictor {
   const PatchMesh& patches_;
   const std::vector<ColorFrame>& frames_;
   WedgeCorners corners_;
+  std::vector<BicubicHermite<Eigen::Vector2d>> geometry_;  // per patch
   std::vector<Eigen::Matrix2d> slope_of_;  // inverse normal matrix of the gradient's fit
   std::vector<std::array<double, 4>> known_;
   std::vector<Eigen::Vector2d> gradients_;  // per pixel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "document_rounding.h"
 #include "document_shapes.h"
 #include "quadrille/patch_geometry.h"
 
@@ -11,26 +12,19 @@ namespace {
 constexpr double kLargest = 1 << 24;
 
 double channel_step(int channel) {
-  // Green carries Y + Cg / 2, the others Y - Cg / 2 +- Co / 2: equal shares of the squared error.
+  // Inverse norms of the channels in RGB, see color_of(); alpha weighs as white does.
   static const std::array<double, kChannels> kSteps = {std::sqrt(1 / 3.0), std::sqrt(2.0),
-                                                       std::sqrt(4 / 3.0), std::sqrt(1 / 3.0)};
+                                                       std::sqrt(1.5), std::sqrt(1 / 3.0)};
   return kSteps[channel];
 }
-
-int nearest(double x) { return static_cast<int>(std::floor(x + 0.5)); }
-
-/// The four kinds of a wedge per channel in units that need no local frame any more.
-struct LocalColors {
-  std::array<Eigen::Array4d, 4> of_kind;
-};
 
 LocalColors local_colors(const Wedge& w, const ColorFrame& frame, const Eigen::Vector2d& moved) {
   const Eigen::Array4d dx = channels_of(w.dx), dy = channels_of(w.dy);
   LocalColors c;
-  c.of_kind[kValue] = channels_of(w.value) + dx * moved.x() + dy * moved.y();
-  c.of_kind[kAlongX] = dx * frame.root(0, 0) + dy * frame.root(0, 1);
-  c.of_kind[kAlongY] = dx * frame.root(1, 0) + dy * frame.root(1, 1);
-  c.of_kind[kTwist] = channels_of(w.twist) * frame.area;
+  c[kValue] = channels_of(w.value) + dx * moved.x() + dy * moved.y();
+  c[kAlongX] = dx * frame.root(0, 0) + dy * frame.root(0, 1);
+  c[kAlongY] = dx * frame.root(1, 0) + dy * frame.root(1, 1);
+  c[kTwist] = channels_of(w.twist) * frame.area;
   return c;
 }
 
@@ -41,7 +35,7 @@ Wedge wedge_of(const WedgeCode& code, const ColorFrame& frame, double step, bool
       kinds[kind][c] = code[c][kind] * color_step_of(c, static_cast<WedgeKind>(kind), step);
     }
   }
-  if (opaque) kinds[kValue][3] = 1;
+  if (opaque) kinds[kValue][kAlpha] = 1;
   const Eigen::Matrix2d& i = frame.inverse;
   Wedge w;
   w.value = color_of(kinds[kValue]);
@@ -100,12 +94,12 @@ std::vector<ColorFrame> color_frames(const QuadMesh& mesh, double position_step)
 
 Eigen::Array4d channels_of(const Color& c) {
   const double r = c[0], g = c[1], b = c[2];
-  return {(r + 2 * g + b) / 4, r - b, g - (r + b) / 2, c[3]};
+  return {(r + g + b) / 3, r - b, g - (r + b) / 2, c[3]};
 }
 
 Color color_of(const Eigen::Array4d& c) {
-  const double between = c[0] - c[2] / 2;
-  return {static_cast<float>(between + c[1] / 2), static_cast<float>(c[0] + c[2] / 2),
+  const double between = c[0] - c[2] / 3;
+  return {static_cast<float>(between + c[1] / 2), static_cast<float>(c[0] + c[2] * (2 / 3.0)),
           static_cast<float>(between - c[1] / 2), static_cast<float>(c[3])};
 }
 
@@ -134,7 +128,7 @@ bool can_quantize(const PatchMesh& patches, const PositionGrid& grid, double col
     for (int kind = 0; kind < 4; ++kind) {
       for (int c = 0; c < kChannels; ++c) {
         const double steps = color_step_of(c, static_cast<WedgeKind>(kind), color_step);
-        if (!fits(local.of_kind[kind][c] / steps)) return false;
+        if (!fits(local[kind][c] / steps)) return false;
       }
     }
   }
@@ -155,20 +149,23 @@ QuantizedPatches quantize(const PatchMesh& patches, const PositionGrid& grid, do
   out.shapes = quantize_tangents(patches, out.mesh, grid.step());
   out.wedge_of_corner = patches.wedge_of_corner;
 
-  const std::vector<ColorFrame> frames = color_frames(out.mesh, grid.step());
+  PatchMesh moved;
+  moved.mesh = out.mesh;
+  moved.wedge_of_corner = out.wedge_of_corner;
+  moved.wedges.resize(patches.wedges.size());
+  set_tangents(out.shapes, grid.step(), moved);
+  const std::vector<ColorFrame> frames = color_frames(moved.mesh, grid.step());
   const std::vector<int> corners = first_corners(patches.wedge_of_corner, patches.wedges.size());
-  out.wedges.resize(patches.wedges.size());
-  for (std::size_t w = 0; w < out.wedges.size(); ++w) {
+  std::vector<LocalColors> exact;
+  for (std::size_t w = 0; w < patches.wedges.size(); ++w) {
     const int v = out.mesh.origin(corners[w]);
-    const LocalColors local =
-        local_colors(patches.wedges[w], frames[v], out.mesh.vertices[v] - patches.mesh.vertices[v]);
-    for (int kind = 0; kind < 4; ++kind) {
-      for (int c = 0; c < (out.opaque ? 3 : kChannels); ++c) {
-        const double steps = color_step_of(c, static_cast<WedgeKind>(kind), color_step);
-        out.wedges[w][c][kind] = nearest(local.of_kind[kind][c] / steps);
-      }
+    exact.push_back(local_colors(patches.wedges[w], frames[v],
+                                 moved.mesh.vertices[v] - patches.mesh.vertices[v]));
+    if (out.opaque) {
+      for (Eigen::Array4d& kind : exact.back()) kind[kAlpha] = 0;
     }
   }
+  out.wedges = round_colors(moved, frames, exact, color_step);
   return out;
 }
 

@@ -48,8 +48,8 @@ inline constexpr double kTangentSteps = 4;
 
 /// Colour kinds of a wedge, in the order in which they are coded.
 enum WedgeKind { kValue, kAlongX, kAlongY, kTwist };
-/// Channels: luma, orange against blue, green against magenta, alpha.
-inline constexpr int kChannels = 4;
+/// Channels: luma, red against blue, green against magenta, alpha; orthogonal in RGB.
+inline constexpr int kChannels = 4, kAlpha = 3;
 using WedgeCode = std::array<std::array<int, 4>, kChannels>;  ///< [channel][kind]
 
 /// A PatchMesh in integers.
@@ -72,7 +72,7 @@ struct ColorFrame {
 /// Depends on positions only, by operations that every machine rounds alike.
 std::vector<ColorFrame> color_frames(const QuadMesh& mesh, double position_step);
 
-/// Colours as luma and two differences; alpha stays.
+/// Colours as mean, R - B and G - (R + B) / 2; alpha stays.
 Eigen::Array4d channels_of(const Color& rgba);
 Color color_of(const Eigen::Array4d& channels);
 

@@ -49,4 +49,20 @@ void save_document(const VectorImage& image, const std::filesystem::path& path,
                    const DocumentOptions& options = {});
 VectorImage load_document(const std::filesystem::path& path);
 
+/// How a document holds its image.
+struct DocumentStorage {
+  int version = 0;               ///< of the format
+  std::uint64_t file_bytes = 0;  ///< as stored
+  struct LayerStorage {
+    DocumentEncoding encoding = DocumentEncoding::lossless;
+    int position_bits = 0;    ///< of a quantised layer, as in DocumentOptions
+    double color_step = 0;    ///< of a quantised layer, as in DocumentOptions
+    std::uint64_t bytes = 0;  ///< of the layer's arrays before compression by zstd
+  };
+  std::vector<LayerStorage> layers;
+};
+
+/// Throws as load_document() does, but does not look into the layers.
+DocumentStorage document_storage(const std::filesystem::path& path);
+
 }  // namespace quadrille
