@@ -39,7 +39,10 @@ struct FreeDecompressor {
 std::vector<std::uint8_t> decompress(std::span<const std::byte> bytes, std::size_t size,
                                      const std::string& name, std::size_t& used) {
   constexpr std::size_t kFirstPart = 1 << 20;
+  // What the compression level uses; zstd would allow a damaged frame to claim 128 MiB.
+  constexpr int kLargestWindowLog = 21;
   const std::unique_ptr<ZSTD_DCtx, FreeDecompressor> context(ZSTD_createDCtx());
+  ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, kLargestWindowLog);
   std::vector<std::uint8_t> content(std::min(size, kFirstPart));
   ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
   std::size_t done = 0;

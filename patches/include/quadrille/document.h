@@ -13,11 +13,12 @@ namespace quadrille {
 
 /// The native document `.quad`: a FlatBuffers table compressed by zstd; docs/quad-format.md
 /// describes it. Loading verifies everything before use: sizes and offsets, index ranges,
-/// adjacency, wedges against tears, finite numbers. Memory is in proportion to the file: at most
-/// 32 KiB for each of its bytes, and never more than 2 GiB before the patches are made.
+/// adjacency, wedges against tears, finite numbers. Reading a quantised document takes at most
+/// 16 KiB of memory for each byte of the file, plus 4 MiB; reading a lossless one at most 8 times
+/// what it unpacks to, which is below 2 GiB and 32 KiB for each byte of the file.
 
 enum class DocumentEncoding {
-  /// Integers, about 1/15 of the size. Vertices and quads are renumbered once; loading and saving
+  /// Integers, about 1/13 of the size. Vertices and quads are renumbered once; loading and saving
   /// again changes nothing any more.
   quantized,
   /// Every number bit for bit, in its place.
@@ -28,7 +29,7 @@ struct DocumentOptions {
   DocumentEncoding encoding = DocumentEncoding::quantized;
   /// Quantised only. Positions are rounded to multiples of 2^-position_bits pixels; vertices on the
   /// sides of the picture stay there exactly. -8 to 16.
-  int position_bits = 6;
+  int position_bits = 5;
   /// Quantised only. Step of the colours in units of 1/255; derivatives are rounded so that they
   /// weigh as much in the rendered picture. 2^-8 to 64.
   double color_step = 1;
