@@ -30,6 +30,17 @@ int size_class(int magnitude, int classes) {
   return std::min(c, classes - 1);
 }
 
+struct Guess {
+  double base = 0;
+  Terms terms{};
+
+  double with(const Weights& weights) const {
+    double guess = base;
+    for (int i = 0; i < kTerms; ++i) guess += terms[i] * weights[i] / kWeightUnit;
+    return guess;
+  }
+};
+
 /// Least squares weights of terms, from their normal equations.
 class WeightFit {
  public:
@@ -103,15 +114,14 @@ class ColorCoder {
     const bool both = first == kAlongX;
     const int count = static_cast<int>(codes_.size());
     Weights weights{};
+    std::vector<Guess> guesses;  // of the encoder, which knows everything from the start
     if constexpr (!Coder::kDecodes) {
-      // What the predictor learns here of later wedges is not looked at below.
       WeightFit fit;
       for (int w = 0; w < count; ++w) {
         for (int kind = first; kind <= first + both; ++kind) {
           const auto k = static_cast<WedgeKind>(kind);
-          double base = 0;
-          const Terms terms = terms_of(w, c, k, base);
-          fit.add(terms, number(w, c, k) - base);
+          guesses.push_back(guess(w, c, k));
+          fit.add(guesses.back().terms, number(w, c, k) - guesses.back().base);
         }
         learn(w, c, first, both);
       }
@@ -119,11 +129,14 @@ class ColorCoder {
     }
     for (int& weight : weights) weight = weight_.code(coder_, weight);
     Models models[2];
+    std::size_t next = 0;
     for (int w = 0; w < count; ++w) {
       for (int kind = first; kind <= first + both; ++kind) {
-        code_number(w, c, static_cast<WedgeKind>(kind), weights, models[kind - first]);
+        const auto k = static_cast<WedgeKind>(kind);
+        const Guess g = Coder::kDecodes ? guess(w, c, k) : guesses[next++];
+        code_number(w, c, k, g.with(weights), models[kind - first]);
       }
-      learn(w, c, first, both);
+      if constexpr (Coder::kDecodes) learn(w, c, first, both);
     }
   }
 
@@ -132,22 +145,18 @@ class ColorCoder {
     if (both) predictor_.learn(w, kAlongY, number(w, c, kAlongY));
   }
 
-  Terms terms_of(int w, int c, WedgeKind kind, double& base) const {
+  Guess guess(int w, int c, WedgeKind kind) const {
     const Prediction p = predictor_.predict(w, kind);
-    base = p.base;
-    Terms terms{};
-    std::copy(p.terms.begin(), p.terms.end(), terms.begin());
+    Guess g{p.base, {}};
+    std::copy(p.terms.begin(), p.terms.end(), g.terms.begin());
     for (int before = 0; before < std::min(c, 2); ++before) {
-      terms[Prediction::kTerms + before] =
+      g.terms[Prediction::kTerms + before] =
           errors_[before][w][kind] * color_step_of(before, kind, color_step_);
     }
-    return terms;
+    return g;
   }
 
-  void code_number(int w, int c, WedgeKind kind, const Weights& weights, Models& models) {
-    double guess = 0;
-    const Terms terms = terms_of(w, c, kind, guess);
-    for (int i = 0; i < kTerms; ++i) guess += terms[i] * weights[i] / kWeightUnit;
+  void code_number(int w, int c, WedgeKind kind, double guess, Models& models) {
     const int expected = rounded(guess / color_step_of(c, kind, color_step_));
     int& number = codes_[w][c][kind];
     AdaptiveInteger& model = models.of_class[size_class(activity(w, c, kind), kClasses)];
@@ -176,19 +185,10 @@ class ColorCoder {
   }
 };
 
-PatchMesh known_patches(const QuantizedPatches& patches, const PositionGrid& grid) {
-  PatchMesh known;
-  known.mesh = patches.mesh;
-  set_tangents(patches.shapes, grid.step(), known);
-  known.wedge_of_corner = patches.wedge_of_corner;
-  known.wedges.resize(patches.wedges.size());
-  return known;
-}
-
 template <class Coder>
 void code_colors(Coder& coder, QuantizedPatches& patches, const PositionGrid& grid,
                  double color_step) {
-  const PatchMesh known = known_patches(patches, grid);
+  const PatchMesh known = geometry_of(patches);
   const std::vector<ColorFrame> frames = color_frames(known.mesh, grid.step());
   ColorCoder<Coder>(coder, known, frames, color_step, patches.wedges)
       .code(patches.opaque ? 3 : kChannels);

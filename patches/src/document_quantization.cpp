@@ -146,14 +146,11 @@ QuantizedPatches quantize(const PatchMesh& patches, const PositionGrid& grid, do
     }
     out.mesh.vertices[v] = grid.at(out.points[v]);
   }
-  out.shapes = quantize_tangents(patches, out.mesh, grid.step());
   out.wedge_of_corner = patches.wedge_of_corner;
+  out.wedges.resize(patches.wedges.size());
+  quantize_tangents(patches, grid.step(), out);
 
-  PatchMesh moved;
-  moved.mesh = out.mesh;
-  moved.wedge_of_corner = out.wedge_of_corner;
-  moved.wedges.resize(patches.wedges.size());
-  set_tangents(out.shapes, grid.step(), moved);
+  const PatchMesh moved = geometry_of(out);
   const std::vector<ColorFrame> frames = color_frames(moved.mesh, grid.step());
   const std::vector<int> corners = first_corners(patches.wedge_of_corner, patches.wedges.size());
   std::vector<LocalColors> exact;
@@ -169,19 +166,25 @@ QuantizedPatches quantize(const PatchMesh& patches, const PositionGrid& grid, do
   return out;
 }
 
-PatchMesh dequantize(const QuantizedPatches& quantized, const PositionGrid& grid,
-                     double color_step) {
+PatchMesh geometry_of(const QuantizedPatches& quantized) {
   PatchMesh patches;
   patches.mesh = quantized.mesh;
-  patches.opaque = quantized.opaque;
-  set_tangents(quantized.shapes, grid.step(), patches);
+  patches.edge_tangents = quantized.tangents;
   patches.wedge_of_corner = quantized.wedge_of_corner;
+  patches.wedges.resize(quantized.wedges.size());
+  patches.opaque = quantized.opaque;
+  return patches;
+}
+
+PatchMesh dequantize(const QuantizedPatches& quantized, const PositionGrid& grid,
+                     double color_step) {
+  PatchMesh patches = geometry_of(quantized);
   const std::vector<ColorFrame> frames = color_frames(patches.mesh, grid.step());
   const std::vector<int> corners =
       first_corners(quantized.wedge_of_corner, quantized.wedges.size());
   for (std::size_t w = 0; w < quantized.wedges.size(); ++w) {
-    patches.wedges.push_back(wedge_of(quantized.wedges[w], frames[patches.mesh.origin(corners[w])],
-                                      color_step, quantized.opaque));
+    patches.wedges[w] = wedge_of(quantized.wedges[w], frames[patches.mesh.origin(corners[w])],
+                                 color_step, quantized.opaque);
   }
   return patches;
 }

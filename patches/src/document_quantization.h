@@ -52,12 +52,15 @@ enum WedgeKind { kValue, kAlongX, kAlongY, kTwist };
 inline constexpr int kChannels = 4, kAlpha = 3;
 using WedgeCode = std::array<std::array<int, 4>, kChannels>;  ///< [channel][kind]
 
+using EdgeTangents = std::array<Eigen::Vector2d, 2>;
+
 /// A PatchMesh in integers.
 struct QuantizedPatches {
   QuadMesh mesh;  ///< with the positions of the points and the flags of its edges
   std::vector<Eigen::Vector2i> points;
-  std::vector<EdgeShape> shapes;     ///< #E
-  std::vector<int> wedge_of_corner;  ///< as straight_patches() numbers them
+  std::vector<EdgeTangents> tangents;  ///< #E, of the shapes
+  std::vector<EdgeShape> shapes;       ///< #E
+  std::vector<int> wedge_of_corner;    ///< as straight_patches() numbers them
   std::vector<WedgeCode> wedges;
   bool opaque = true;  ///< then alpha is left out
 };
@@ -79,8 +82,8 @@ Color color_of(const Eigen::Array4d& channels);
 /// Size of one step per channel and kind, for a colour step of `step` (1 is white).
 double color_step_of(int channel, WedgeKind kind, double step);
 
-/// Tangents of all edges.
-void set_tangents(const std::vector<EdgeShape>& shapes, double position_step, PatchMesh& patches);
+/// Mesh, tangents and wedge numbers; the colours are black.
+PatchMesh geometry_of(const QuantizedPatches& quantized);
 
 /// True when quantize() can hold the patches: finite numbers within 2^24 steps.
 bool can_quantize(const PatchMesh& patches, const PositionGrid& grid, double color_step);

@@ -9,6 +9,7 @@
 #include "document_container.h"
 #include "document_geometry.h"
 #include "document_quantization.h"
+#include "document_shapes.h"
 
 namespace quadrille {
 namespace {
@@ -106,6 +107,7 @@ PatchMesh restore_quantized(const fbs::QuantizedPatches& stored, double width, d
   RangeDecoder geometry(bytes_of(*stored.geometry()), name);
   decode_geometry(geometry, quantized, grid);
   geometry.finish();
+  set_tangents(grid.step(), quantized);
 
   PatchMesh wedges = straight_patches(quantized.mesh);
   quantized.wedge_of_corner = std::move(wedges.wedge_of_corner);

@@ -11,6 +11,7 @@ namespace {
 using Eigen::Array4d;
 using Eigen::Matrix4d;
 constexpr int kSweeps = 3;
+constexpr double kLargest = 1 << 25;  // that document_colors.cpp codes
 
 /// Integrals of products of the cubic Hermite basis: value and derivative at 0, then at 1.
 constexpr double kLine[4][4] = {{156 / 420., 22 / 420., 54 / 420., -13 / 420.},
@@ -52,6 +53,11 @@ class Rounding {
     }
     for (auto& e : patch_errors_) e.fill(Array4d::Zero());
     for (int q = 0; q < patches.patch_count(); ++q) measure(q, frames);
+    for (Matrix4d& m : metric_) {
+      // Vertices on one point have no metric; anything positive will do there.
+      m.diagonal().array() += 1e-12 * m.trace() + 1e-30;
+      root_.push_back(Eigen::LLT<Matrix4d>(m).matrixU());
+    }
   }
 
   std::vector<WedgeCode> codes() {
@@ -70,7 +76,7 @@ class Rounding {
   LocalColors step_;
   std::vector<Matrix4d> to_patch_;  ///< per corner: kinds -> value and derivatives of the patch
   std::vector<double> area_;        ///< per patch
-  std::vector<Matrix4d> metric_;    ///< per wedge
+  std::vector<Matrix4d> metric_, root_;  ///< per wedge, and its Cholesky factor
   std::vector<LocalColors> errors_;
   std::vector<std::array<Array4d, 16>> patch_errors_;
 
@@ -115,35 +121,36 @@ class Rounding {
     return slope;
   }
 
+  /// Works on all channels at once.
   void round(int w, bool first, WedgeCode& code) {
-    const Matrix4d& metric = metric_[w];
-    const Eigen::LLT<Matrix4d> root(metric + 1e-12 * metric.trace() * Matrix4d::Identity());
-    if (root.info() != Eigen::Success) return round_alone(w, code);
-    const Matrix4d upper = root.matrixU();
+    const Matrix4d& root = root_[w];  // upper triangular, root^T root = metric
     const LocalColors slopes = slope(w);
-    for (int c = 0; c < kChannels; ++c) {
-      const Eigen::Vector4d g(slopes[0][c], slopes[1][c], slopes[2][c], slopes[3][c]);
-      const Eigen::Vector4d wish = -root.solve(g);
-      Eigen::Vector4d change;
-      std::array<int, 4> number;
-      for (int i = 3; i >= 0; --i) {
-        double to = wish[i];
-        for (int j = i + 1; j < 4; ++j) to += upper(i, j) / upper(i, i) * (wish[j] - change[j]);
-        const double at = exact_[w][i][c] + errors_[w][i][c];
-        number[i] = static_cast<int>(std::floor((at + to) / step_[i][c] + 0.5));
-        change[i] = number[i] * step_[i][c] - at;
-      }
-      if (!first && 2 * g.dot(change) + change.dot(metric * change) >= 0) continue;
-      for (int i = 0; i < 4; ++i) set(w, c, i, number[i], code);
+    LocalColors wish = slopes;  // -metric^-1 slopes
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) wish[i] -= root(j, i) * wish[j];
+      wish[i] /= root(i, i);
     }
-    spread(w);
-  }
-
-  void round_alone(int w, WedgeCode& code) {
+    for (int i = 3; i >= 0; --i) {
+      for (int j = i + 1; j < 4; ++j) wish[i] -= root(i, j) * wish[j];
+      wish[i] /= root(i, i);
+    }
+    LocalColors number, change;
+    for (int i = 3; i >= 0; --i) {
+      Array4d to = -wish[i];
+      for (int j = i + 1; j < 4; ++j) to -= root(i, j) / root(i, i) * (wish[j] + change[j]);
+      const Array4d at = exact_[w][i] + errors_[w][i];
+      number[i] = ((at + to) / step_[i] + 0.5).floor().max(-kLargest).min(kLargest);
+      change[i] = number[i] * step_[i] - at;
+    }
+    Array4d gain = Array4d::Zero();
+    for (int i = 0; i < 4; ++i) {
+      Array4d bent = Array4d::Zero();
+      for (int j = 0; j < 4; ++j) bent += metric_[w](i, j) * change[j];
+      gain += (2 * slopes[i] + bent) * change[i];
+    }
     for (int c = 0; c < kChannels; ++c) {
-      for (int i = 0; i < 4; ++i) {
-        set(w, c, i, static_cast<int>(std::floor(exact_[w][i][c] / step_[i][c] + 0.5)), code);
-      }
+      if (!first && !(gain[c] < 0)) continue;
+      for (int i = 0; i < 4; ++i) set(w, c, i, static_cast<int>(number[i][c]), code);
     }
     spread(w);
   }

@@ -8,8 +8,6 @@
 namespace quadrille {
 namespace {
 
-using EdgeTangents = std::array<Eigen::Vector2d, 2>;
-
 Eigen::Vector2d chord_of(const QuadMesh& mesh, int e) {
   const int h = mesh.halfedge(e);
   return mesh.vertices[mesh.tip(h)] - mesh.vertices[mesh.origin(h)];
@@ -46,52 +44,66 @@ EdgeShape shape_of(const EdgeTangents& tangents, const EdgeTangents& bessel,
   return shape;
 }
 
-std::vector<EdgeShape> shapes_of(const PatchMesh& patches, double position_step) {
-  PatchMesh bessel;
-  bessel.mesh = patches.mesh;
-  bessel.edge_tangents.resize(patches.edge_tangents.size());
-  set_bessel_tangents(bessel);
+std::vector<EdgeTangents> bessel_tangents(const QuadMesh& mesh) {
+  PatchMesh patches;
+  patches.mesh = mesh;
+  patches.edge_tangents.resize(mesh.edge_count());
+  set_bessel_tangents(patches);
+  return std::move(patches.edge_tangents);
+}
+
+std::vector<EdgeShape> shapes_of(const QuadMesh& mesh, const std::vector<EdgeTangents>& tangents,
+                                 const std::vector<EdgeTangents>& bessel, double position_step) {
   std::vector<EdgeShape> shapes;
-  for (int e = 0; e < patches.mesh.edge_count(); ++e) {
-    shapes.push_back(shape_of(patches.edge_tangents[e], bessel.edge_tangents[e],
-                              chord_of(patches.mesh, e), position_step));
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    shapes.push_back(shape_of(tangents[e], bessel[e], chord_of(mesh, e), position_step));
   }
   return shapes;
 }
 
-/// Shapes whose tangents are recognised as the same shapes again; some may have become simpler.
-void settle(std::vector<EdgeShape>& shapes, double position_step, PatchMesh& patches) {
-  for (;;) {
-    set_tangents(shapes, position_step, patches);
-    std::vector<EdgeShape> again = shapes_of(patches, position_step);
-    if (again == shapes) return;
-    shapes = std::move(again);
-  }
-}
-
-}  // namespace
-
-void set_tangents(const std::vector<EdgeShape>& shapes, double position_step, PatchMesh& patches) {
-  patches.edge_tangents.resize(shapes.size());
-  set_bessel_tangents(patches);
+std::vector<EdgeTangents> tangents_of(const QuadMesh& mesh, const std::vector<EdgeShape>& shapes,
+                                      std::vector<EdgeTangents> bessel, double position_step) {
   for (std::size_t e = 0; e < shapes.size(); ++e) {
-    EdgeTangents& t = patches.edge_tangents[e];
+    EdgeTangents& t = bessel[e];
     if (shapes[e].level != EdgeShape::kFree) {
-      t = drawn_in(t, chord_of(patches.mesh, static_cast<int>(e)), shapes[e].level);
+      t = drawn_in(t, chord_of(mesh, static_cast<int>(e)), shapes[e].level);
       continue;
     }
     for (int i = 0; i < 4; ++i) {
       t[i / 2][i % 2] += shapes[e].deviation[i] * (kTangentSteps * position_step);
     }
   }
+  return bessel;
 }
 
-std::vector<EdgeShape> quantize_tangents(const PatchMesh& patches, const QuadMesh& mesh,
-                                         double position_step) {
-  std::vector<EdgeShape> shapes = shapes_of(patches, position_step);
-  PatchMesh moved;
-  moved.mesh = mesh;
-  settle(shapes, position_step, moved);
+/// Changes shapes into those that their tangents are recognised as; some may become simpler.
+/// Returns the tangents.
+std::vector<EdgeTangents> settle(const QuadMesh& mesh, const std::vector<EdgeTangents>& bessel,
+                                 double position_step, std::vector<EdgeShape>& shapes) {
+  for (;;) {
+    std::vector<EdgeTangents> tangents = tangents_of(mesh, shapes, bessel, position_step);
+    std::vector<EdgeShape> again = shapes_of(mesh, tangents, bessel, position_step);
+    if (again == shapes) return tangents;
+    shapes = std::move(again);
+  }
+}
+
+}  // namespace
+
+void set_tangents(double position_step, QuantizedPatches& patches) {
+  patches.tangents =
+      tangents_of(patches.mesh, patches.shapes, bessel_tangents(patches.mesh), position_step);
+}
+
+void quantize_tangents(const PatchMesh& patches, double position_step, QuantizedPatches& moved) {
+  const QuadMesh& mesh = moved.mesh;
+  std::vector<EdgeShape>& shapes = moved.shapes;
+  shapes =
+      shapes_of(patches.mesh, patches.edge_tangents, bessel_tangents(patches.mesh), position_step);
+  const std::vector<EdgeTangents> bessel = bessel_tangents(mesh);
+  PatchMesh curved;
+  curved.mesh = mesh;
+  curved.edge_tangents = settle(mesh, bessel, position_step, shapes);
   std::vector<char> must_hold(mesh.quad_count());
   for (int q = 0; q < mesh.quad_count(); ++q) {
     must_hold[q] = certify_fold_free(patch_geometry(patches, q));
@@ -100,12 +112,12 @@ std::vector<EdgeShape> quantize_tangents(const PatchMesh& patches, const QuadMes
   for (;;) {
     std::vector<int> raise;
     for (int q = 0; q < mesh.quad_count(); ++q) {
-      if (!must_hold[q] || certify_fold_free(patch_geometry(moved, q))) continue;
+      if (!must_hold[q] || certify_fold_free(patch_geometry(curved, q))) continue;
       for (int k = 0; k < 4; ++k) raise.push_back(mesh.edge(4 * q + k));
     }
     // A quad that folds even with straight edges stays as it is.
     std::erase_if(raise, [&](int e) { return raised[e] == EdgeShape::kStraight; });
-    if (raise.empty()) return shapes;
+    if (raise.empty()) break;
     std::sort(raise.begin(), raise.end());
     raise.erase(std::unique(raise.begin(), raise.end()), raise.end());
     for (const int e : raise) {
@@ -114,8 +126,9 @@ std::vector<EdgeShape> quantize_tangents(const PatchMesh& patches, const QuadMes
       shapes[e] = {std::min(raised[e], EdgeShape::kStraight), {}};
       raised[e] = shapes[e].level;
     }
-    settle(shapes, position_step, moved);
+    curved.edge_tangents = settle(mesh, bessel, position_step, shapes);
   }
+  moved.tangents = std::move(curved.edge_tangents);
 }
 
 }  // namespace quadrille
