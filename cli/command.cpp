@@ -9,13 +9,14 @@
 namespace quadrille::cli {
 namespace {
 
-constexpr std::array<Command, 5> kCommands = {{
+constexpr std::array<Command, 6> kCommands = {{
     {"vectorize", "Turn a picture into patches and write them in any of the formats",
      declare_vectorize},
     {"export", "Write a .quad document in other formats", declare_export},
     {"render", "Draw a document or a picture at any scale, whole or a region", declare_render},
     {"inspect", "Draw a stage of the computation over the faded picture", declare_inspect},
     {"compare", "Print how far two pictures are apart: MAE, PSNR, SSIM", declare_compare},
+    {"info", "Print what a .quad document holds", declare_info},
 }};
 
 bool is_command(const std::string& word) {

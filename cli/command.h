@@ -34,6 +34,7 @@ Action declare_export(CLI::App& parser);
 Action declare_render(CLI::App& parser);
 Action declare_inspect(CLI::App& parser);
 Action declare_compare(CLI::App& parser);
+Action declare_info(CLI::App& parser);
 
 /// Parses and runs the arguments (without the program's name).
 /// Throws UsageError for a wrong command line, besides whatever the sub-command throws.

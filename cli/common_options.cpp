@@ -127,6 +127,12 @@ void declare_output(CLI::App& parser, std::filesystem::path& output) {
       ->type_name("FILE");
 }
 
+void declare_document_options(CLI::App& parser, DocumentOptions& options) {
+  parser.add_flag_callback(
+      "--lossless", [&] { options.encoding = DocumentEncoding::lossless; },
+      "write .quad documents bit for bit, some 13 times larger");
+}
+
 CLI::Validator positive_number() {
   return CLI::Validator(
       [](const std::string& text) -> std::string {

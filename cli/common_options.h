@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "observer.h"
+#include "quadrille/document.h"
 #include "quadrille/vectorize.h"
 
 namespace quadrille::cli {
@@ -46,6 +47,9 @@ void declare_input(CLI::App& parser, std::filesystem::path& input, const std::st
 void declare_outputs(CLI::App& parser, std::vector<std::filesystem::path>& outputs);
 /// `-o`, exactly once.
 void declare_output(CLI::App& parser, std::filesystem::path& output);
+
+/// --lossless, for `.quad` outputs.
+void declare_document_options(CLI::App& parser, DocumentOptions& options);
 
 /// Accepts finite numbers above 0.
 CLI::Validator positive_number();

@@ -12,6 +12,7 @@ struct ExportRequest {
   std::filesystem::path input;
   std::vector<std::filesystem::path> outputs;
   double scale = 1;
+  DocumentOptions document;
   RunOptions run;
 };
 
@@ -21,6 +22,7 @@ int run_export(const ExportRequest& request) {
   const VectorImage image = observer.stage("read", [&] { return load_document(request.input); });
   ExportOptions options;
   options.raster.scale = request.scale;
+  options.document = request.document;
   write_outputs(image, request.outputs, options, observer);
   return kSuccess;
 }
@@ -34,6 +36,7 @@ Action declare_export(CLI::App& parser) {
   parser.add_option("--scale", request->scale, "output pixels per source pixel, for pixel formats")
       ->check(positive_number())
       ->capture_default_str();
+  declare_document_options(parser, request->document);
   declare_run_options(parser, request->run);
   return [request] { return run_export(*request); };
 }

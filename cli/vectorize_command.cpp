@@ -22,6 +22,7 @@ struct VectorizeRequest {
   fs::path report;
   double scale = 1;
   std::optional<double> max_error;
+  DocumentOptions document;
   MeshOptions mesh;
   RunOptions run;
 };
@@ -72,6 +73,7 @@ int run_vectorize(const VectorizeRequest& request) {
   const Vectorization& result = bounded.result;
   ExportOptions options;
   options.raster.scale = request.scale;
+  options.document = request.document;
   write_outputs(result.image, request.outputs, options, observer);
 
   if (request.report.empty() && request.run.verbosity() != Verbosity::verbose) return kSuccess;
@@ -105,6 +107,7 @@ Action declare_vectorize(CLI::App& parser) {
   parser.add_option("--scale", request->scale, "output pixels per source pixel, for pixel formats")
       ->check(positive_number())
       ->capture_default_str();
+  declare_document_options(parser, request->document);
   parser.add_option("--report", request->report, "write what the run measured as JSON")
       ->type_name("FILE.json");
   declare_run_options(parser, request->run);

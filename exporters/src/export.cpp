@@ -1,7 +1,6 @@
 #include "quadrille/export.h"
 
 #include "ending.h"
-#include "quadrille/document.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
@@ -21,8 +20,9 @@ void raster(const VectorImage& image, const std::filesystem::path& path,
 }
 
 const Format kFormats[] = {
-    {".quad", [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions&,
-                 const RunContext&) { save_document(image, path); }},
+    {".quad",
+     [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
+        const RunContext&) { save_document(image, path, options.document); }},
     {".png", raster},
     {".jpg", raster},
     {".jpeg", raster},

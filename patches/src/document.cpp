@@ -6,6 +6,7 @@
 
 #include "document_container.h"
 #include "document_patches.h"
+#include "document_quantized.h"
 #include "quadrille/atomic_file.h"
 #include "quadrille/error.h"
 
@@ -29,18 +30,56 @@ void check_storable(const VectorImage& image) {
   }
 }
 
-Offset<fbs::Layer> store_layer(FlatBufferBuilder& builder, const Layer& layer) {
-  const auto name = builder.CreateString(layer.name);
-  const auto patches = store_patches(builder, layer.patches);
-  const auto& m = layer.transform.matrix();
-  const fbs::Affine transform(m(0, 0), m(0, 1), m(1, 0), m(1, 1), m(0, 2), m(1, 2));
-  return fbs::CreateLayer(builder, name, &transform, layer.patches.opaque,
-                          fbs::Patches::LosslessPatches, patches.Union());
+QuantizationSteps steps_of(const DocumentOptions& options) {
+  if (options.position_bits < -8 || options.position_bits > 16) {
+    throw Error(ErrorCode::invalid_argument, "position_bits of a document must be from -8 to 16");
+  }
+  if (!(options.color_step >= 0x1p-8 && options.color_step <= 64)) {
+    throw Error(ErrorCode::invalid_argument, "color_step of a document must be from 2^-8 to 64");
+  }
+  return {options.position_bits, static_cast<float>(options.color_step / 255)};
 }
 
-Layer restore_layer(const fbs::Layer& stored, const std::string& name) {
-  const fbs::LosslessPatches* patches = stored.patches_as_LosslessPatches();
-  if (!patches) report_newer_document(name);
+/// Stores the layers of one image and keeps account of what the container must know.
+class LayerWriter {
+ public:
+  LayerWriter(FlatBufferBuilder& builder, const VectorImage& image, const DocumentOptions& options)
+      : builder_(builder),
+        image_(image),
+        lossless_(options.encoding == DocumentEncoding::lossless),
+        steps_(steps_of(options)) {}
+
+  Offset<fbs::Layer> store(const Layer& layer) {
+    const auto name = builder_.CreateString(layer.name);
+    const auto& m = layer.transform.matrix();
+    const fbs::Affine transform(m(0, 0), m(0, 1), m(1, 0), m(1, 1), m(0, 2), m(1, 2));
+    const PatchMesh& patches = layer.patches;
+    const bool quantized =
+        !lossless_ && can_store_quantized(patches, image_.width, image_.height, steps_);
+    if (!quantized) {
+      return fbs::CreateLayer(builder_, name, &transform, patches.opaque,
+                              fbs::Patches::LosslessPatches,
+                              store_patches(builder_, patches).Union());
+    }
+    version_ = kQuantizedVersion;
+    quads_ += static_cast<std::uint64_t>(patches.patch_count());
+    return fbs::CreateLayer(
+        builder_, name, &transform, patches.opaque, fbs::Patches::QuantizedPatches,
+        store_quantized(builder_, patches, image_.width, image_.height, steps_).Union());
+  }
+  std::uint32_t version() const { return version_; }
+  std::uint64_t quantized_quads() const { return quads_; }
+
+ private:
+  FlatBufferBuilder& builder_;
+  const VectorImage& image_;
+  bool lossless_;
+  QuantizationSteps steps_;
+  std::uint32_t version_ = kLosslessVersion;
+  std::uint64_t quads_ = 0;
+};
+
+Layer restore_layer(const fbs::Layer& stored, const VectorImage& image, const std::string& name) {
   Layer layer;
   layer.name = stored.name()->str();
   const fbs::Affine& t = *stored.transform();
@@ -48,9 +87,25 @@ Layer restore_layer(const fbs::Layer& stored, const std::string& name) {
   if (!layer.transform.matrix().allFinite()) {
     report_damaged_document(name, "a transform is not finite");
   }
-  layer.patches = restore_patches(*patches, name);
+  if (const auto* lossless = stored.patches_as_LosslessPatches()) {
+    layer.patches = restore_patches(*lossless, name);
+  } else if (const auto* quantized = stored.patches_as_QuantizedPatches()) {
+    layer.patches = restore_quantized(*quantized, image.width, image.height, stored.opaque(), name);
+  } else {
+    report_newer_document(name);
+  }
   layer.patches.opaque = stored.opaque();
   return layer;
+}
+
+void check_quads(const fbs::Document& stored, std::size_t file_size, const std::string& name) {
+  std::uint64_t quads = 0;
+  for (const fbs::Layer* layer : *stored.layers()) {
+    if (const auto* patches = layer->patches_as_QuantizedPatches()) quads += patches->quad_count();
+  }
+  if (quads > kMostQuadsPerByte * file_size) {
+    report_damaged_document(name, "it is too small for its patches");
+  }
 }
 
 const fbs::Document& verified(const std::vector<std::uint8_t>& content, const std::string& name) {
@@ -62,55 +117,7 @@ const fbs::Document& verified(const std::vector<std::uint8_t>& content, const st
   return *fbs::GetDocument(content.data());
 }
 
-}  // namespace
-
-std::vector<std::byte> to_document(const VectorImage& image) {
-  check_storable(image);
-  FlatBufferBuilder builder;
-  std::vector<Offset<fbs::Layer>> layers;
-  for (const Layer& layer : image.layers) layers.push_back(store_layer(builder, layer));
-  std::vector<Offset<fbs::MetadataEntry>> metadata;
-  for (const auto& [key, value] : image.metadata) {
-    const auto stored_key = builder.CreateString(key);
-    metadata.push_back(fbs::CreateMetadataEntry(builder, stored_key, builder.CreateString(value)));
-  }
-  const auto stored_layers = builder.CreateVector(layers);
-  const auto stored_metadata = builder.CreateVector(metadata);
-  fbs::FinishDocumentBuffer(builder, fbs::CreateDocument(builder, image.width, image.height,
-                                                         stored_layers, stored_metadata));
-  return pack_document({builder.GetBufferPointer(), builder.GetSize()});
-}
-
-VectorImage from_document(std::span<const std::byte> bytes, const std::string& name) {
-  const std::vector<std::uint8_t> content = unpack_document(bytes, name);
-  const fbs::Document& stored = verified(content, name);
-  VectorImage image;
-  image.width = stored.width();
-  image.height = stored.height();
-  const auto is_size = [](double side) { return std::isfinite(side) && side > 0; };
-  if (!is_size(image.width) || !is_size(image.height)) {
-    report_damaged_document(name, "its size is not positive");
-  }
-  for (const fbs::Layer* layer : *stored.layers()) {
-    image.layers.push_back(restore_layer(*layer, name));
-  }
-  for (const fbs::MetadataEntry* entry : *stored.metadata()) {
-    if (!image.metadata.emplace(entry->key()->str(), entry->value()->str()).second) {
-      report_damaged_document(name, "a metadata key is repeated");
-    }
-  }
-  return image;
-}
-
-void save_document(const VectorImage& image, const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = to_document(image);
-  write_stream_atomically(path, [&](std::ostream& file) {
-    file.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-  });
-}
-
-VectorImage load_document(const std::filesystem::path& path) {
+std::vector<std::byte> read_file(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& why) {
     throw Error(ErrorCode::io_failure, "cannot read '" + path.string() + "': " + why);
   };
@@ -124,7 +131,90 @@ VectorImage load_document(const std::filesystem::path& path) {
   std::vector<std::byte> bytes(size);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (file.gcount() != static_cast<std::streamsize>(size)) refuse("it ends too early; try again");
-  return from_document(bytes, path.string());
+  return bytes;
+}
+
+DocumentStorage::LayerStorage storage_of(const fbs::Layer& layer, const std::string& name) {
+  if (const auto* p = layer.patches_as_LosslessPatches()) {
+    const std::uint64_t bytes = p->quads()->size() + p->vertices()->size() +
+                                p->edge_flags()->size() + p->edge_tangents()->size() +
+                                p->wedge_of_corner()->size() + p->wedges()->size();
+    return {DocumentEncoding::lossless, 0, 0, bytes};
+  }
+  if (const auto* p = layer.patches_as_QuantizedPatches()) {
+    const std::uint64_t bytes =
+        p->connectivity()->size() + p->geometry()->size() + p->colors()->size();
+    return {DocumentEncoding::quantized, p->position_exponent(), p->color_step() * 255.0, bytes};
+  }
+  report_newer_document(name);
+}
+
+}  // namespace
+
+std::vector<std::byte> to_document(const VectorImage& image, const DocumentOptions& options) {
+  check_storable(image);
+  FlatBufferBuilder builder;
+  LayerWriter writer(builder, image, options);
+  std::vector<Offset<fbs::Layer>> layers;
+  for (const Layer& layer : image.layers) layers.push_back(writer.store(layer));
+  std::vector<Offset<fbs::MetadataEntry>> metadata;
+  for (const auto& [key, value] : image.metadata) {
+    const auto stored_key = builder.CreateString(key);
+    metadata.push_back(fbs::CreateMetadataEntry(builder, stored_key, builder.CreateString(value)));
+  }
+  const auto stored_layers = builder.CreateVector(layers);
+  const auto stored_metadata = builder.CreateVector(metadata);
+  fbs::FinishDocumentBuffer(builder, fbs::CreateDocument(builder, image.width, image.height,
+                                                         stored_layers, stored_metadata));
+  return pack_document({builder.GetBufferPointer(), builder.GetSize()}, writer.version(),
+                       writer.quantized_quads());
+}
+
+VectorImage from_document(std::span<const std::byte> bytes, const std::string& name) {
+  const UnpackedDocument document = unpack_document(bytes, name);
+  const fbs::Document& stored = verified(document.content, name);
+  VectorImage image;
+  image.width = stored.width();
+  image.height = stored.height();
+  const auto is_size = [](double side) { return std::isfinite(side) && side > 0; };
+  if (!is_size(image.width) || !is_size(image.height)) {
+    report_damaged_document(name, "its size is not positive");
+  }
+  check_quads(stored, bytes.size(), name);
+  for (const fbs::Layer* layer : *stored.layers()) {
+    image.layers.push_back(restore_layer(*layer, image, name));
+  }
+  for (const fbs::MetadataEntry* entry : *stored.metadata()) {
+    if (!image.metadata.emplace(entry->key()->str(), entry->value()->str()).second) {
+      report_damaged_document(name, "a metadata key is repeated");
+    }
+  }
+  return image;
+}
+
+void save_document(const VectorImage& image, const std::filesystem::path& path,
+                   const DocumentOptions& options) {
+  const std::vector<std::byte> bytes = to_document(image, options);
+  write_stream_atomically(path, [&](std::ostream& file) {
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  });
+}
+
+VectorImage load_document(const std::filesystem::path& path) {
+  return from_document(read_file(path), path.string());
+}
+
+DocumentStorage document_storage(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_file(path);
+  const UnpackedDocument document = unpack_document(bytes, path.string());
+  DocumentStorage storage;
+  storage.version = static_cast<int>(document.version);
+  storage.file_bytes = bytes.size();
+  for (const fbs::Layer* layer : *verified(document.content, path.string()).layers()) {
+    storage.layers.push_back(storage_of(*layer, path.string()));
+  }
+  return storage;
 }
 
 }  // namespace quadrille

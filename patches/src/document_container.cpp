@@ -35,12 +35,16 @@ struct FreeDecompressor {
   void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
 };
 
-std::vector<std::uint8_t> decompress(std::span<const std::byte> frame, std::size_t size,
-                                     const std::string& name) {
+/// The content of the frame at the start of `bytes`, whose length is added to `used`.
+std::vector<std::uint8_t> decompress(std::span<const std::byte> bytes, std::size_t size,
+                                     const std::string& name, std::size_t& used) {
   constexpr std::size_t kFirstPart = 1 << 20;
+  // What the compression level uses; zstd would allow a damaged frame to claim 128 MiB.
+  constexpr int kLargestWindowLog = 21;
   const std::unique_ptr<ZSTD_DCtx, FreeDecompressor> context(ZSTD_createDCtx());
+  ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, kLargestWindowLog);
   std::vector<std::uint8_t> content(std::min(size, kFirstPart));
-  ZSTD_inBuffer in{frame.data(), frame.size(), 0};
+  ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
   std::size_t done = 0;
   for (;;) {
     ZSTD_outBuffer out{content.data(), content.size(), done};
@@ -56,8 +60,15 @@ std::vector<std::uint8_t> decompress(std::span<const std::byte> frame, std::size
       report_damaged_document(name, in.pos == in.size ? "it ends too early" : "it is too long");
     }
   }
-  if (done != size || in.pos != in.size) report_damaged_document(name, "its size is wrong");
+  if (done != size) report_damaged_document(name, "its size is wrong");
+  used += in.pos;
   return content;
+}
+
+std::uint64_t least_size(std::uint32_t version, std::uint64_t content, std::uint64_t quads) {
+  if (version < kQuantizedVersion) return 0;
+  return std::max((content + kMostContentPerByte - 1) / kMostContentPerByte,
+                  (quads + kMostQuadsPerByte - 1) / kMostQuadsPerByte);
 }
 
 }  // namespace
@@ -73,11 +84,12 @@ void report_newer_document(const std::string& name) {
       "the document '" + name + "' was written by a newer Quadrille; update this one to read it");
 }
 
-std::vector<std::byte> pack_document(std::span<const std::uint8_t> content) {
+std::vector<std::byte> pack_document(std::span<const std::uint8_t> content, std::uint32_t version,
+                                     std::uint64_t quads) {
   std::vector<std::byte> bytes;
   bytes.reserve(kHeaderSize);
   for (const std::uint8_t s : kSignature) bytes.push_back(static_cast<std::byte>(s));
-  put(bytes, kDocumentVersion, 4);
+  put(bytes, version, 4);
   put(bytes, content.size(), 8);
   bytes.resize(kHeaderSize + ZSTD_compressBound(content.size()));
   const std::unique_ptr<ZSTD_CCtx, FreeCompressor> context(ZSTD_createCCtx());
@@ -92,11 +104,11 @@ std::vector<std::byte> pack_document(std::span<const std::uint8_t> content) {
                                                   "); free some memory and try again");
   }
   bytes.resize(kHeaderSize + size);
+  bytes.resize(std::max(bytes.size(), least_size(version, content.size(), quads)));
   return bytes;
 }
 
-std::vector<std::uint8_t> unpack_document(std::span<const std::byte> bytes,
-                                          const std::string& name) {
+UnpackedDocument unpack_document(std::span<const std::byte> bytes, const std::string& name) {
   const std::size_t common = std::min(bytes.size(), kSignature.size());
   const bool ours = std::equal(bytes.begin(), bytes.begin() + common, kSignature.begin(),
                                [](std::byte a, std::uint8_t b) { return a == std::byte{b}; });
@@ -107,7 +119,7 @@ std::vector<std::uint8_t> unpack_document(std::span<const std::byte> bytes,
                     "picture first");
   }
   if (bytes.size() < kHeaderSize) report_damaged_document(name, "it ends within its header");
-  const std::uint64_t version = get(bytes.subspan(kSignature.size()), 4);
+  const auto version = static_cast<std::uint32_t>(get(bytes.subspan(kSignature.size()), 4));
   if (version > kDocumentVersion) report_newer_document(name);
   if (version == 0) report_damaged_document(name, "its version is 0");
   const std::uint64_t size = get(bytes.subspan(kSignature.size() + 4), 8);
@@ -116,7 +128,17 @@ std::vector<std::uint8_t> unpack_document(std::span<const std::byte> bytes,
                                                std::to_string(size) +
                                                " bytes, more than 2 GiB; use an intact copy");
   }
-  return decompress(bytes.subspan(kHeaderSize), size, name);
+  if (bytes.size() < least_size(version, size, 0)) {
+    report_damaged_document(name, "it is too small for its content");
+  }
+  std::size_t used = kHeaderSize;
+  UnpackedDocument document{version, decompress(bytes.subspan(kHeaderSize), size, name, used)};
+  const auto rest = bytes.subspan(used);
+  const bool padded =
+      version >= kQuantizedVersion &&
+      std::all_of(rest.begin(), rest.end(), [](std::byte b) { return b == std::byte{0}; });
+  if (!rest.empty() && !padded) report_damaged_document(name, "something follows its content");
+  return document;
 }
 
 }  // namespace quadrille

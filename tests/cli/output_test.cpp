@@ -63,20 +63,22 @@ class Output : public testing::Test {
 
 TEST_F(Output, EveryFormatIsTheSameForAnyThreadCountAndFromTheDocument) {
   const fs::path first = fresh_folder("threads_1");
-  expect_silent_success(quadrille(
-      join({"vectorize", picture(), "--quads", "200", "--threads", "1"}, every_output(first))));
+  expect_silent_success(
+      quadrille(join({"vectorize", picture(), "--quads", "200", "--lossless", "--threads", "1"},
+                     every_output(first))));
   EXPECT_EQ(files_in(first).size(), export_endings().size());
 
   for (const std::string threads : {"2", "3"}) {
     const fs::path other = fresh_folder("threads_" + threads);
-    expect_silent_success(quadrille(join(
-        {"vectorize", picture(), "--quads", "200", "--threads", threads}, every_output(other))));
+    expect_silent_success(quadrille(
+        join({"vectorize", picture(), "--quads", "200", "--lossless", "--threads", threads},
+             every_output(other))));
     expect_same_files(first, other);
   }
 
   const fs::path exported = fresh_folder("exported");
-  expect_silent_success(
-      quadrille(join({"export", (first / "picture.quad").string()}, every_output(exported))));
+  expect_silent_success(quadrille(
+      join({"export", (first / "picture.quad").string(), "--lossless"}, every_output(exported))));
   expect_same_files(first, exported);
 }
 
@@ -142,8 +144,14 @@ TEST_F(Output, RenderTakesAPictureToo) {
   const fs::path folder = fresh_folder("render_picture");
   expect_silent_success(
       quadrille({"render", picture(), "-o", (folder / "a.png").string(), "--quads", "200"}));
-  expect_silent_success(quadrille({"render", document(), "-o", (folder / "b.png").string()}));
+  const std::string lossless = (folder / "lossless.quad").string();
+  expect_silent_success(quadrille({picture(), "-o", lossless, "--quads", "200", "--lossless"}));
+  expect_silent_success(quadrille({"render", lossless, "-o", (folder / "b.png").string()}));
   EXPECT_TRUE(bytes_of(folder / "a.png") == bytes_of(folder / "b.png"));
+
+  // The quantised document looks the same.
+  expect_silent_success(quadrille({"render", document(), "-o", (folder / "c.png").string()}));
+  EXPECT_LT(compare(load_image(folder / "a.png"), load_image(folder / "c.png")).mae, 0.3);
 }
 
 TEST_F(Output, CompareMeasuresAndDecides) {

@@ -99,6 +99,8 @@ TEST(Refusal, NotADocument) {
   expect_refused(
       quadrille({"export", (folder / "text.quad").string(), "-o", (folder / "a.svg").string()}),
       "text.quad");
+  expect_refused(quadrille({"info", (folder / "text.quad").string()}), "text.quad");
+  expect_refused(quadrille({"info", (folder / "none.quad").string(), "--json"}), "none.quad");
   EXPECT_THAT(files_in(folder), ElementsAre("text.quad"));
 }
 

@@ -9,8 +9,8 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::vector<std::string> kSubCommands = {"vectorize", "export", "render", "inspect",
-                                               "compare"};
+const std::vector<std::string> kSubCommands = {"vectorize", "export",  "render",
+                                               "inspect",   "compare", "info"};
 
 TEST(Usage, HelpNamesEverySubCommand) {
   const CommandResult help = quadrille({"help"});
@@ -76,7 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{"render", "a.quad", "-o", "b.png", "--bits", "12"},
         std::vector<std::string>{"inspect", "a.png", "-o", "b.png"},
         std::vector<std::string>{"inspect", "a.png", "-o", "b.png", "--stage", "colour"},
-        std::vector<std::string>{"compare", "a.png"}));
+        std::vector<std::string>{"compare", "a.png"}, std::vector<std::string>{"info"},
+        std::vector<std::string>{"info", "a.quad", "--xml"}));
 
 }  // namespace
 }  // namespace quadrille::test

@@ -14,6 +14,7 @@ namespace quadrille {
 namespace {
 
 using Bytes = std::vector<std::byte>;
+constexpr DocumentOptions kLossless{DocumentEncoding::lossless};
 using Random = std::mt19937;
 
 double real(Random& random) { return (static_cast<double>(random()) - 2147483648.0) / 4096.0; }
@@ -107,7 +108,7 @@ ErrorCode code_of(const Bytes& bytes) {
 /// Accepting is fine as long as what comes out is a proper image; anything but Error is not.
 void expect_harmless(const Bytes& bytes) {
   try {
-    to_document(from_document(bytes));
+    to_document(from_document(bytes), kLossless);
   } catch (const Error&) {
   }
 }
@@ -115,10 +116,10 @@ void expect_harmless(const Bytes& bytes) {
 TEST(Document, RoundTripIsBitExact) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     const VectorImage image = random_image(seed, seed % 2);
-    const Bytes bytes = to_document(image);
+    const Bytes bytes = to_document(image, kLossless);
     const VectorImage loaded = from_document(bytes);
     expect_same(image, loaded);
-    EXPECT_EQ(to_document(loaded), bytes);
+    EXPECT_EQ(to_document(loaded, kLossless), bytes);
   }
 }
 
@@ -127,15 +128,15 @@ TEST(Document, KeepsWedgesNumberedInAnyOrder) {
   PatchMesh& patches = image.layers[0].patches;
   const int last = static_cast<int>(patches.wedges.size()) - 1;
   for (int& w : patches.wedge_of_corner) w = last - w;
-  expect_same(image, from_document(to_document(image)));
+  expect_same(image, from_document(to_document(image, kLossless)));
 }
 
 TEST(Document, HoldsAnImageWithoutLayersOrPatches) {
   VectorImage image;
   image.width = image.height = 1;
-  expect_same(image, from_document(to_document(image)));
+  expect_same(image, from_document(to_document(image, kLossless)));
   image.layers.emplace_back();
-  expect_same(image, from_document(to_document(image)));
+  expect_same(image, from_document(to_document(image, kLossless)));
 }
 
 TEST(Document, RefusesForeignFilesAndNewerVersions) {
@@ -144,13 +145,13 @@ TEST(Document, RefusesForeignFilesAndNewerVersions) {
   EXPECT_EQ(code_of(Bytes(begin, begin + png.size())), ErrorCode::unsupported_format);
   EXPECT_EQ(code_of({}), ErrorCode::unsupported_format);
 
-  Bytes newer = to_document(random_image(2));
+  Bytes newer = to_document(random_image(2), kLossless);
   newer[8] = std::byte{kDocumentVersion + 1};
   EXPECT_EQ(code_of(newer), ErrorCode::unsupported_format);
 }
 
 TEST(Document, RefusesClaimsOfGiantSizesBeforeUnpacking) {
-  Bytes bytes = to_document(random_image(3));
+  Bytes bytes = to_document(random_image(3), kLossless);
   bytes[12 + 7] = std::byte{1};
   EXPECT_EQ(code_of(bytes), ErrorCode::limit_exceeded);
   bytes[12 + 7] = std::byte{0};
@@ -162,7 +163,7 @@ TEST(Document, RefusesWhatContradictsItself) {
   const auto damaged = [](auto change) {
     VectorImage image = random_image(4);
     change(image, image.layers[0].patches);
-    return code_of(to_document(image));
+    return code_of(to_document(image, kLossless));
   };
   using Image = VectorImage;
   const double nan = std::nan("");
@@ -195,7 +196,7 @@ TEST(Document, RefusesWhatContradictsItself) {
 }
 
 TEST(Document, EveryTruncationIsRefused) {
-  const Bytes bytes = to_document(random_image(5));
+  const Bytes bytes = to_document(random_image(5), kLossless);
   for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 64) {
     EXPECT_THROW(from_document({bytes.data(), size}), Error) << size;
   }
@@ -205,7 +206,7 @@ TEST(Document, EveryTruncationIsRefused) {
 }
 
 TEST(Document, MutatedFilesGiveErrorsOrTheSameImage) {
-  const Bytes bytes = to_document(random_image(6));
+  const Bytes bytes = to_document(random_image(6), kLossless);
   Random random(1);
   for (int round = 0; round < 2000; ++round) {
     Bytes mutated = bytes;
@@ -214,14 +215,15 @@ TEST(Document, MutatedFilesGiveErrorsOrTheSameImage) {
     }
     try {
       // A few bits of a zstd frame's header have no meaning.
-      EXPECT_EQ(to_document(from_document(mutated)), bytes);
+      EXPECT_EQ(to_document(from_document(mutated), kLossless), bytes);
     } catch (const Error&) {
     }
   }
 }
 
 TEST(Document, MutatedContentsGiveErrorsOrProperImages) {
-  const std::vector<std::uint8_t> content = unpack_document(to_document(random_image(7)), "");
+  const std::vector<std::uint8_t> content =
+      unpack_document(to_document(random_image(7), kLossless), "").content;
   Random random(2);
   for (int round = 0; round < 1500; ++round) {
     std::vector<std::uint8_t> mutated = content;
@@ -232,7 +234,7 @@ TEST(Document, MutatedContentsGiveErrorsOrProperImages) {
       mutated[random() % range] = static_cast<std::uint8_t>(random());
     }
     if (round % 8 == 0) mutated.resize(random() % mutated.size());
-    expect_harmless(pack_document(mutated));
+    expect_harmless(pack_document(mutated, kLosslessVersion, 0));
   }
 }
 
@@ -240,11 +242,11 @@ TEST(Document, SavesAndLoadsFiles) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "quadrille_document_test";
   std::filesystem::create_directories(folder);
   const VectorImage image = random_image(8);
-  save_document(image, folder / "a.quad");
+  save_document(image, folder / "a.quad", kLossless);
   expect_same(image, load_document(folder / "a.quad"));
-  save_document(random_image(9), folder / "a.quad");
+  save_document(random_image(9), folder / "a.quad", kLossless);
   EXPECT_EQ(load_document(folder / "a.quad").width, random_image(9).width);
-  EXPECT_THROW(save_document(image, folder / "missing" / "a.quad"), Error);
+  EXPECT_THROW(save_document(image, folder / "missing" / "a.quad", kLossless), Error);
   EXPECT_THROW(load_document(folder / "none.quad"), Error);
   EXPECT_THROW(load_document(folder), Error);
   const auto entries = std::distance(std::filesystem::directory_iterator(folder), {});

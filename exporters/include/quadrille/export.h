@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "quadrille/document.h"
 #include "quadrille/run_context.h"
 #include "quadrille/vector_image.h"
 
@@ -47,6 +48,7 @@ struct ExportOptions {
   PdfOptions pdf;
   GltfOptions gltf;
   VtkOptions vtk;
+  DocumentOptions document;
 };
 
 /// One writer per format. Each writes to a temporary beside the target and renames it; the same

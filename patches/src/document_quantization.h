@@ -1,0 +1,98 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "quadrille/patch_mesh.h"
+
+namespace quadrille {
+
+/// The grid of positions: multiples of 2^-exponent pixels, and the picture's sides exactly.
+class PositionGrid {
+ public:
+  PositionGrid(int exponent, double width, double height)
+      : step_(std::ldexp(1.0, -exponent)),
+        side_{width, height},
+        last_{std::ceil(width / step_), std::ceil(height / step_)} {}
+
+  /// The sides are numbers that an int holds with room to spare.
+  bool is_usable() const { return last_[0] < 1 << 24 && last_[1] < 1 << 24; }
+  double step() const { return step_; }
+  /// Number of the far side of the picture along an axis.
+  int last(int axis) const { return static_cast<int>(last_[axis]); }
+  double at(int axis, int n) const { return n == last_[axis] ? side_[axis] : n * step_; }
+  Eigen::Vector2d at(const Eigen::Vector2i& n) const { return {at(0, n.x()), at(1, n.y())}; }
+  int nearest(int axis, double x) const {
+    return static_cast<int>(x == side_[axis] ? last_[axis] : std::floor(x / step_ + 0.5));
+  }
+
+ private:
+  double step_;
+  std::array<double, 2> side_, last_;
+};
+
+/// How an edge's tangents follow from the vertices: those of set_bessel_tangents(), drawn toward
+/// the chord as guard_folds() does, or those of set_bessel_tangents() plus multiples of
+/// kTangentSteps position steps.
+struct EdgeShape {
+  static constexpr int kFree = 5;
+  static constexpr int kStraight = 4;
+  int level = 0;                   ///< 0 to 4: kKeep[level] of the deviation from the chord
+  std::array<int, 4> deviation{};  ///< only for kFree
+  bool operator==(const EdgeShape&) const = default;
+};
+inline constexpr std::array<double, 5> kKeep = {1, 0.75, 0.5, 0.25, 0};
+inline constexpr double kTangentSteps = 4;
+
+/// Colour kinds of a wedge, in the order in which they are coded.
+enum WedgeKind { kValue, kAlongX, kAlongY, kTwist };
+/// Channels: luma, red against blue, green against magenta, alpha; orthogonal in RGB.
+inline constexpr int kChannels = 4, kAlpha = 3;
+using WedgeCode = std::array<std::array<int, 4>, kChannels>;  ///< [channel][kind]
+
+using EdgeTangents = std::array<Eigen::Vector2d, 2>;
+
+/// A PatchMesh in integers.
+struct QuantizedPatches {
+  QuadMesh mesh;  ///< with the positions of the points and the flags of its edges
+  std::vector<Eigen::Vector2i> points;
+  std::vector<EdgeTangents> tangents;  ///< #E, of the shapes
+  std::vector<EdgeShape> shapes;       ///< #E
+  std::vector<int> wedge_of_corner;    ///< as straight_patches() numbers them
+  std::vector<WedgeCode> wedges;
+  bool opaque = true;  ///< then alpha is left out
+};
+
+/// The local frame of a vertex makes derivatives comparable with values: multiplied by `root`, the
+/// square root of the mean of (edge)(edge)^T over its edges times 2, a gradient becomes a
+/// difference of colour along an edge; multiplied by `area`, a twist does.
+struct ColorFrame {
+  Eigen::Matrix2d root, inverse;
+  double area = 1;
+};
+/// Depends on positions only, by operations that every machine rounds alike.
+std::vector<ColorFrame> color_frames(const QuadMesh& mesh, double position_step);
+
+/// Colours as mean, R - B and G - (R + B) / 2; alpha stays.
+Eigen::Array4d channels_of(const Color& rgba);
+Color color_of(const Eigen::Array4d& channels);
+
+/// Size of one step per channel and kind, for a colour step of `step` (1 is white).
+double color_step_of(int channel, WedgeKind kind, double step);
+
+/// Mesh, tangents and wedge numbers; the colours are black.
+PatchMesh geometry_of(const QuantizedPatches& quantized);
+
+/// True when quantize() can hold the patches: finite numbers within 2^24 steps.
+bool can_quantize(const PatchMesh& patches, const PositionGrid& grid, double color_step);
+
+/// The nearest integers. A colour is first moved with its vertex along its gradient. Patches that
+/// were certified free of folds stay so: where rounding takes the proof away, tangents are drawn
+/// toward their chords. dequantize() gives the same integers again.
+QuantizedPatches quantize(const PatchMesh& patches, const PositionGrid& grid, double color_step);
+PatchMesh dequantize(const QuantizedPatches& quantized, const PositionGrid& grid,
+                     double color_step);
+
+}  // namespace quadrille

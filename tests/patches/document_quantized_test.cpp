@@ -1,0 +1,176 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "document_container.h"
+#include "irregular_mesh.h"
+#include "quadrille/document.h"
+#include "quadrille/error.h"
+#include "quadrille/patch_geometry.h"
+#include "quadrille/render.h"
+#include "support/random_patches.h"
+
+namespace quadrille {
+namespace {
+
+using testing::irregular_mesh;
+using testing::random_patches;
+using testing::set_random_colors;
+using testing::single_layer;
+
+constexpr DocumentOptions kFine{DocumentEncoding::quantized, 16, 1 / 64.0};
+
+VectorImage reloaded(const VectorImage& image, const DocumentOptions& options = {}) {
+  return from_document(to_document(image, options));
+}
+
+/// Every `every`-th inner edge becomes a tear; neighbouring ones divide vertices.
+void tear(PatchMesh& patches, int every) {
+  QuadMesh mesh = patches.mesh;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (e % every == 0 && !mesh.is_border(e)) mesh.edge_flags[e] |= kTearEdge;
+  }
+  const auto tangents = patches.edge_tangents;
+  patches = straight_patches(std::move(mesh));
+  patches.edge_tangents = tangents;
+}
+
+/// Irregular (3, 5 and more quads around a vertex), with curved edges, tears and any colours.
+VectorImage irregular_image(unsigned seed, bool torn, bool opaque) {
+  PatchMesh patches = straight_patches(irregular_mesh(5, 4, 101.5, 80, seed));
+  set_bessel_tangents(patches);
+  guard_folds(patches);
+  if (torn) tear(patches, 3);
+  set_random_colors(patches, seed, opaque);
+  patches.opaque = opaque;
+  return single_layer(std::move(patches), 101.5, 80);
+}
+
+double largest_difference(const VectorImage& a, const VectorImage& b) {
+  const Raster p = render(a, {.scale = 2}), q = render(b, {.scale = 2});
+  EXPECT_EQ(p.channels, q.channels);
+  double largest = 0;
+  for (std::size_t i = 0; i < p.data.size(); ++i) {
+    largest = std::max<double>(largest, std::abs(p.data[i] - q.data[i]));
+  }
+  return largest;
+}
+
+TEST(QuantizedDocument, FineStepsKeepThePictureOfAnyMesh) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const VectorImage image = irregular_image(seed, seed % 2, seed % 3);
+    const VectorImage loaded = reloaded(image, kFine);
+    // Signs of twists, sides of tears and neighbours must all be right for this.
+    EXPECT_LT(largest_difference(image, loaded), 0.02) << seed;
+    EXPECT_EQ(loaded.layers[0].patches.wedges.size(), image.layers[0].patches.wedges.size());
+    EXPECT_EQ(loaded.opaque(), image.opaque());
+  }
+}
+
+TEST(QuantizedDocument, SavingAgainGivesTheSameBytes) {
+  for (const int bits : {2, 6, 10}) {
+    for (unsigned seed = 0; seed < 12; ++seed) {
+      const DocumentOptions options{DocumentEncoding::quantized, bits, 1};
+      const auto bytes = to_document(irregular_image(seed, seed % 2, seed % 3), options);
+      EXPECT_EQ(to_document(from_document(bytes), options), bytes) << seed;
+    }
+  }
+}
+
+TEST(QuantizedDocument, SavingAgainGivesTheSameBytesForFreeTangents) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    PatchMesh patches = random_patches(9, 7, 90, 70, seed);
+    set_random_colors(patches, seed);
+    const VectorImage image = single_layer(std::move(patches), 90, 70);
+    const auto bytes = to_document(image);
+    EXPECT_EQ(to_document(from_document(bytes)), bytes) << seed;
+  }
+}
+
+TEST(QuantizedDocument, TheMeshStaysValidAndFreeOfFolds) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const VectorImage loaded = reloaded(irregular_image(seed, true, true));
+    const PatchMesh& patches = loaded.layers[0].patches;
+    EXPECT_TRUE(validate(patches.mesh, loaded.width, loaded.height).empty()) << seed;
+    for (int q = 0; q < patches.patch_count(); ++q) {
+      EXPECT_TRUE(certify_fold_free(patch_geometry(patches, q))) << seed << " " << q;
+    }
+  }
+}
+
+TEST(QuantizedDocument, KeepsFlagsAndLengthsOfTears) {
+  const VectorImage image = irregular_image(3, true, true);
+  const VectorImage loaded = reloaded(image, kFine);
+  const auto tears_of = [](const VectorImage& i) {
+    const QuadMesh& mesh = i.layers[0].patches.mesh;
+    double count = 0, length = 0;
+    for (int e = 0; e < mesh.edge_count(); ++e) {
+      if (!mesh.is_tear(e)) continue;
+      const int h = mesh.halfedge(e);
+      length += (mesh.vertices[mesh.tip(h)] - mesh.vertices[mesh.origin(h)]).norm();
+      count += 1;
+    }
+    return std::pair(count, length);
+  };
+  EXPECT_GT(tears_of(image).first, 0);
+  EXPECT_EQ(tears_of(loaded).first, tears_of(image).first);
+  EXPECT_NEAR(tears_of(loaded).second, tears_of(image).second, 0.01);
+}
+
+TEST(QuantizedDocument, PositionsMoveByHalfAStepAtMost) {
+  const VectorImage image = irregular_image(4, false, true);
+  const QuadMesh& before = image.layers[0].patches.mesh;
+  const VectorImage loaded = reloaded(image, {DocumentEncoding::quantized, 3, 1});
+  for (const Eigen::Vector2d& p : loaded.layers[0].patches.mesh.vertices) {
+    double nearest = 1e9;
+    for (const Eigen::Vector2d& v : before.vertices) {
+      nearest = std::min(nearest, (p - v).lpNorm<Eigen::Infinity>());
+    }
+    EXPECT_LE(nearest, 1 / 16.0);
+  }
+}
+
+TEST(QuantizedDocument, LayersWithoutACommonPieceOrPatchesComeBack) {
+  // Two separate quads, the second one listed with another corner first.
+  QuadMesh mesh({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {10, 0}, {14, 0}, {14, 4}, {10, 4}},
+                {{0, 1, 2, 3}, {6, 7, 4, 5}});
+  VectorImage image = single_layer(straight_patches(std::move(mesh)), 14, 4);
+  image.layers.emplace_back();
+  image.layers[1].name = "nothing";
+  image.metadata["title"] = "two";
+  const VectorImage loaded = reloaded(image);
+  EXPECT_EQ(loaded.patch_count(), 2);
+  EXPECT_EQ(loaded.layers[1].name, "nothing");
+  EXPECT_EQ(loaded.metadata, image.metadata);
+  EXPECT_EQ(largest_difference(image, loaded), 0);
+}
+
+TEST(QuantizedDocument, WhatItCannotHoldIsStoredLossless) {
+  VectorImage image = irregular_image(5, false, true);
+  image.layers[0].patches.mesh.vertices[0].x() = -1e12;
+  const VectorImage loaded = reloaded(image);
+  EXPECT_EQ(loaded.layers[0].patches.mesh.vertices, image.layers[0].patches.mesh.vertices);
+  EXPECT_EQ(loaded.layers[0].patches.mesh.quads(), image.layers[0].patches.mesh.quads());
+}
+
+TEST(QuantizedDocument, AUniformPictureIsSmallButNotBelowTheLeastSize) {
+  PatchMesh patches = straight_patches(testing::lattice(100, 100, 400, 400));
+  const VectorImage image = single_layer(std::move(patches), 400, 400);
+  const auto bytes = to_document(image);
+  EXPECT_EQ(bytes.size(), 10000u / kMostQuadsPerByte);
+  EXPECT_EQ(from_document(bytes).patch_count(), 10000);
+
+  auto shorter = bytes;
+  shorter.pop_back();
+  EXPECT_THROW(from_document(shorter), Error);
+}
+
+TEST(QuantizedDocument, RefusesOptionsOutOfRange) {
+  const VectorImage image = irregular_image(6, false, true);
+  EXPECT_THROW(to_document(image, {DocumentEncoding::quantized, 17, 1}), Error);
+  EXPECT_THROW(to_document(image, {DocumentEncoding::quantized, 6, 0}), Error);
+  EXPECT_THROW(to_document(image, {DocumentEncoding::quantized, 6, std::nan("")}), Error);
+}
+
+}  // namespace
+}  // namespace quadrille
