@@ -110,7 +110,7 @@ void register_stages() {
   });
   add("extract_quads", [] {
     const Quadrangulation& s = stages();
-    return extract_quads(s.features, s.cross, s.scale, s.position, picture().width,
+    return extract_quads(s.features, s.cross, s.scale, s.position, s.chains, picture().width,
                          picture().height)
         .quad_count();
   });

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace quadrille {
@@ -114,6 +115,22 @@ std::vector<Vector2d> smoothed(std::vector<Vector2d> points) {
   return points;
 }
 
+/// Lets a closed line start where it turns least: at a start in a corner, such as the topmost one
+/// of a tilted rectangle, that corner would be missed.
+void start_where_straightest(std::vector<Vector2d>& points) {
+  constexpr int kArm = 4;  // points, together as long as a corner's arm
+  const int n = static_cast<int>(points.size());
+  if (n < 2 * kArm) return;
+  int best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < n; ++i) {
+    const Vector2d before = points[(i + n - kArm) % n], after = points[(i + kArm) % n];
+    const double here = turn(points[i] - before, after - points[i]);
+    if (here < least) least = here, best = i;
+  }
+  std::rotate(points.begin(), points.begin() + best, points.end());
+}
+
 class NetworkBuilder {
  public:
   NetworkBuilder(const std::vector<TracedChain>& traced, const std::vector<Vector2d>& places,
@@ -122,6 +139,10 @@ class NetworkBuilder {
     for (int c = 0; c < static_cast<int>(traced_.size()); ++c) {
       ends_[traced_[c].from].push_back({c, false});
       ends_[traced_[c].to].push_back({c, true});
+    }
+    for (TracedChain& chain : traced_) {
+      const bool is_lone_loop = chain.from == chain.to && ends_[chain.from].size() == 2;
+      if (is_lone_loop) start_where_straightest(chain.points);
     }
   }
 
@@ -139,7 +160,7 @@ class NetworkBuilder {
     int chain;
     bool is_back;
   };
-  const std::vector<TracedChain>& traced_;
+  std::vector<TracedChain> traced_;
   const std::vector<Vector2d>& places_;
   Vector2d size_;
   std::vector<std::vector<End>> ends_;  // per node
