@@ -18,10 +18,13 @@ using Eigen::Vector2d;
 // The error of a quad of size h grows as C sqrt(h), and the wished h as C^(-1/2.5); so the density
 // 1 / h^2 grows as this power of the error times that of the size.
 constexpr double kErrorPower = 0.8, kSizePower = 1.6;
-constexpr double kLeastError = 0.15;    // of the mean: flat areas stay covered
-constexpr double kMostChange = 6;       // of the density, either way
-constexpr double kWindow = 0.35;        // sigma of the error's window, in edges
-constexpr double kBesideChain = 2;      // pixels on either side whose error a chain answers for
+constexpr double kLeastError = 0.15;  // of the mean: flat areas stay covered
+constexpr double kMostChange = 6;     // of the density, either way
+constexpr double kWindow = 0.35;      // sigma of the error's window, in edges
+constexpr double kBesideChain = 2;    // pixels on either side whose error a chain answers for
+// Quads per cell grow by as much where the mesh is graded by the error, and by so many times the
+// share of the vertices that lie on chains, which stay apart where others merge; as measured.
+constexpr double kGradingGain = 1.01, kChainGain = 1.2;
 constexpr double kLeastCounted = 0.02;  // share of pixels that a mean takes for granted
 
 /// Squared distance of the premultiplied colours of each pixel.
@@ -111,6 +114,15 @@ void keep_worthwhile(ChainNetwork& network, const FieldGrid<float>& error, doubl
   });
 }
 
+/// Lattice cells that give about the wished count, going by the mesh so far.
+double expected_cells(const Quadrangulation& quads, double spacing, int wished) {
+  double on_chains = 0;
+  for (const FeatureChain& chain : quads.chains.chains) on_chains += 1 + chain.length / spacing;
+  const double share = on_chains / (wished / 4.0);
+  return quads.lattice_cells * wished / quads.mesh.quad_count() /
+         (kGradingGain + kChainGain * share);
+}
+
 }  // namespace
 
 void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster& fitted,
@@ -135,6 +147,7 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
   const FieldGrid<float> map = wished_density(quads, options);
   for (std::size_t i = 0; i < map.data.size(); ++i) wish.density.data[i] *= map.data[i];
   clock.finish("error");
+  wish.first_guess = expected_cells(quads, edge, options.quads);
   mesh_to_count(quads, picture, edge, options, wish, clock, context);
   snap_to_features(quads.mesh, shown, options.snap, context);
   clock.finish("snapping");
