@@ -22,6 +22,8 @@ constexpr int kReach = 4;
 /// A chain whose drop per edge is below this share of a neighbour's waits until that one is torn.
 constexpr double kStrongShare = 0.25;
 constexpr int kRounds = 4;
+/// Of fits that are only compared with each other.
+constexpr double kDraftTolerance = 1e-2;
 
 void check(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains,
            const TearOptions& options) {
@@ -233,14 +235,16 @@ std::vector<char> judge_tears(const QuadMesh& mesh, const std::vector<std::vecto
   std::vector<char> is_torn(chains.size(), strong);
   if (options.mode != TearOptions::Mode::automatic || chains.empty()) return is_torn;
 
+  FitOptions draft = fit;
+  draft.tolerance = std::max(fit.tolerance, kDraftTolerance);
   const QuadMesh everything = with_chains(mesh, chains, std::vector<char>(chains.size(), 1));
   const auto tangents = smooth_tangents(everything);
-  const Trial all(everything, tangents, picture, fit, context);
+  const Trial all(everything, tangents, picture, draft, context);
   const Neighbourhoods near(all.patches.mesh, chains);
   const auto neighbours = near.neighbours();
   const Judge judge(near, all, picture, options);
   for (int round = 0; round < kRounds; ++round) {
-    const Trial now(with_chains(mesh, chains, is_torn), tangents, picture, fit, context);
+    const Trial now(with_chains(mesh, chains, is_torn), tangents, picture, draft, context);
     const std::vector<int> wedges = wedge_counts(now.patches);
     std::vector<double> drop(chains.size(), 0);  // per edge
     for (std::size_t c = 0; c < chains.size(); ++c) {

@@ -70,10 +70,10 @@ std::vector<Run> runs_of(const Arc& arc, const PremultipliedColours& colours, do
   for (int k = 0; k < n; ++k) {
     const Vector2d p = middle(arc, k, cell);
     const Vector2d normal = steepest(colours, p);
-    profiles[k] = edge_profile(colours, p, normal);
     // Lines across a thin strip end at its edges, but are none.
-    const bool is_along = std::abs(along(arc, k, cell).dot(normal)) < kOblique;
-    good[k] = is_along && std::abs(profiles[k].offset) <= kFarthest &&
+    if (std::abs(along(arc, k, cell).dot(normal)) >= kOblique) continue;
+    profiles[k] = edge_profile(colours, p, normal);
+    good[k] = std::abs(profiles[k].offset) <= kFarthest &&
               profiles[k].contrast >= options.weak_contrast && profiles[k].sharpness >= kBlurred;
   }
   const int gap = static_cast<int>(kGap / cell);

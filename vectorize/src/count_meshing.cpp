@@ -70,9 +70,9 @@ FieldGrid<float> wished_density(const Quadrangulation& fields, const VectorizeOp
   return density_map(options.density, fields.cross.z.width, fields.cross.z.height);
 }
 
-double mesh_to_count(Quadrangulation& fields, const Raster& picture, double edge,
-                     const VectorizeOptions& options, const CountWish& wish, StageClock& clock,
-                     const RunContext& context) {
+void mesh_to_count(Quadrangulation& fields, const Raster& picture, double edge,
+                   const VectorizeOptions& options, const CountWish& wish, StageClock& clock,
+                   const RunContext& context) {
   ScaleOptions scale_options = options.scale;
   if (!wish.density.data.empty()) scale_options.density = wish.density;
   const ScaleField relative = relative_scale(fields.features, fields.cross,
@@ -105,7 +105,7 @@ double mesh_to_count(Quadrangulation& fields, const Raster& picture, double edge
   fields.mesh = std::move(best->mesh);
   fields.scale = std::move(best->scale);
   fields.position = std::move(best->position);
-  return best->cells;
+  fields.lattice_cells = best->cells;
 }
 
 }  // namespace quadrille

@@ -27,9 +27,9 @@ bool is_valid(const QuadMesh& mesh, const std::vector<Loop>& outline, const Rast
 FieldGrid<float> wished_density(const Quadrangulation& fields, const VectorizeOptions& options);
 
 /// Scales, positions and quads for the solved cross field, repeated with corrected scales until the
-/// count is close to the wished one; keeps the closest valid mesh. Returns the cells asked for.
-double mesh_to_count(Quadrangulation& fields, const Raster& picture, double edge,
-                     const VectorizeOptions& options, const CountWish& wish, StageClock& clock,
-                     const RunContext& context);
+/// count is close to the wished one; keeps the closest valid mesh.
+void mesh_to_count(Quadrangulation& fields, const Raster& picture, double edge,
+                   const VectorizeOptions& options, const CountWish& wish, StageClock& clock,
+                   const RunContext& context);
 
 }  // namespace quadrille

@@ -24,6 +24,9 @@ constexpr double kWindow = 0.35;       // sigma of the error's window, in edges
 constexpr double kBesideChain = 2;     // pixels on either side whose error a chain answers for
 constexpr double kWorstCorner = 0.18;  // sine; chains that lead to worse ones are not followed
 constexpr int kMeshRounds = 3;
+// Quads per cell grow by as much where the mesh is graded by the error, and by so many times the
+// share of the vertices that lie on chains, which stay apart where others merge; as measured.
+constexpr double kGradingGain = 1.01, kChainGain = 1.2;
 constexpr double kLeastCounted = 0.02;  // share of pixels that a mean takes for granted
 
 /// Squared distance of the premultiplied colours of each pixel.
@@ -128,6 +131,15 @@ bool leave_out_bad_chains(Quadrangulation& quads, double reach) {
          }) > 0;
 }
 
+/// Lattice cells that give about the wished count, going by the mesh so far.
+double expected_cells(const Quadrangulation& quads, double spacing, int wished) {
+  double on_chains = 0;
+  for (const FeatureChain& chain : quads.chains.chains) on_chains += 1 + chain.length / spacing;
+  const double share = on_chains / (wished / 4.0);
+  return quads.lattice_cells * wished / quads.mesh.quad_count() /
+         (kGradingGain + kChainGain * share);
+}
+
 }  // namespace
 
 void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster& fitted,
@@ -152,10 +164,12 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
   const FieldGrid<float> map = wished_density(quads, options);
   for (std::size_t i = 0; i < map.data.size(); ++i) wish.density.data[i] *= map.data[i];
   clock.finish("error");
+  wish.first_guess = expected_cells(quads, edge, options.quads);
   const QuadMesh before = quads.mesh;
   for (int round = 0; round < kMeshRounds; ++round) {
     mesh_to_count(quads, picture, edge, options, wish, clock, context);
     if (!is_valid(quads.mesh, quads.outline, picture)) {
+      if (quads.chains.chains.empty()) wish.density = map;
       quads.chains = {};
     } else if (!leave_out_bad_chains(quads, edge)) {
       break;
@@ -163,7 +177,6 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
   }
   if (!is_valid(quads.mesh, quads.outline, picture)) {
     quads.mesh = before;
-    return;
   }
   snap_to_features(quads.mesh, shown, options.snap, context);
   clock.finish("snapping");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "boundary_graph.h"
 #include "chain_network.h"
@@ -30,23 +31,37 @@ constexpr float kNoise = 0.02f;           // gradients below it, per pixel, coun
 FieldGrid<float> gradient_norm(const Raster& picture, int cells_per_pixel,
                                const RunContext& context) {
   using Colour = PremultipliedColours::Colour;
+  constexpr int kBand = 16;  // rows
   const PremultipliedColours colours(picture);
   FieldGrid<float> gradient(picture.width * cells_per_pixel, picture.height * cells_per_pixel);
-  const double cell = 1.0 / cells_per_pixel;
-  parallel_rows(context, gradient.height, gradient.width, [&](int y) {
-    for (int x = 0; x < gradient.width; ++x) {
-      std::array<std::array<Colour, 3>, 3> c;
-      for (int j = 0; j < 3; ++j) {
-        for (int i = 0; i < 3; ++i) {
-          c[j][i] =
-              colours.at({(x + 0.5) * cell + 0.5 * (i - 1), (y + 0.5) * cell + 0.5 * (j - 1)});
-        }
+  // The colours that neighbouring differences share lie on a lattice of half a pixel.
+  const int step = 2 / cells_per_pixel;
+  const auto place = [&](int i) { return 0.5 * i + 0.5 / cells_per_pixel - 0.5; };
+  const auto fill_band = [&](int band) {
+    std::array<std::vector<Colour>, 3> rows;  // of the lattice, row i at i % 3
+    const auto fill_row = [&](int j) {
+      std::vector<Colour>& row = rows[j % 3];
+      row.resize(static_cast<std::size_t>(step) * (gradient.width - 1) + 3);
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        row[i] = colours.at({place(static_cast<int>(i)), place(j)});
       }
-      const Colour dx = (c[0][2] - c[0][0]) + 2 * (c[1][2] - c[1][0]) + (c[2][2] - c[2][0]);
-      const Colour dy = (c[2][0] - c[0][0]) + 2 * (c[2][1] - c[0][1]) + (c[2][2] - c[0][2]);
-      gradient(x, y) = 0.25f * std::sqrt(dx.squaredNorm() + dy.squaredNorm());
+    };
+    const int begin = band * kBand, end = std::min(begin + kBand, gradient.height);
+    int filled = step * begin;
+    for (int y = begin; y < end; ++y) {
+      for (; filled < step * y + 3; ++filled) fill_row(filled);
+      const Colour* const above = rows[step * y % 3].data();
+      const Colour* const here = rows[(step * y + 1) % 3].data();
+      const Colour* const below = rows[(step * y + 2) % 3].data();
+      for (int x = 0; x < gradient.width; ++x) {
+        const int l = step * x, m = l + 1, r = l + 2;
+        const Colour dx = (above[r] - above[l]) + 2 * (here[r] - here[l]) + (below[r] - below[l]);
+        const Colour dy = (below[l] - above[l]) + 2 * (below[m] - above[m]) + (below[r] - above[r]);
+        gradient(x, y) = 0.25f * std::sqrt(dx.squaredNorm() + dy.squaredNorm());
+      }
     }
-  });
+  };
+  parallel_rows(context, (gradient.height + kBand - 1) / kBand, kBand * gradient.width, fill_band);
   return gradient;
 }
 

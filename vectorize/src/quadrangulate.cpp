@@ -4,6 +4,7 @@
 
 #include "count_calibration.h"
 #include "count_meshing.h"
+#include "draft_mesh.h"
 #include "meshed_region.h"
 #include "opaque_picture.h"
 #include "option_checks.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr double kRoundingSlack = 1 + 1e-9;
 // Lattice edges inside an outline for which fields are solved, in source pixels.
 constexpr double kShortestRegionEdge = 2;
+constexpr double kDraftTolerance = 0.1;  // of a draft's count
 
 void check(const VectorizeOptions& options) {
   if (options.quads < 1) {
@@ -77,7 +79,8 @@ QuadMesh trimmed_lattice(const std::vector<Loop>& outline, const Raster& picture
 
 /// The fields' mesh of the whole picture, or of the inside of the outline.
 void mesh_by_fields(Quadrangulation& result, const Raster& picture, double edge,
-                    const VectorizeOptions& options, const RunContext& context) {
+                    const VectorizeOptions& options, MeshQuality quality,
+                    const RunContext& context) {
   StageClock clock(context);
   const bool whole = result.outline.empty();
   const Raster& shown = whole ? picture : result.inside;
@@ -87,7 +90,11 @@ void mesh_by_fields(Quadrangulation& result, const Raster& picture, double edge,
   clock.finish("features");
   result.cross = cross_field(result.features, options.cross_field, context);
   clock.finish("cross field", phase_figures(result.cross));
-  mesh_to_count(result, picture, edge, options, {wished_density(result, options)}, clock, context);
+  const bool is_draft = quality == MeshQuality::draft;
+  const CountWish wish = {wished_density(result, options),
+                          is_draft ? kDraftTolerance : kCloseEnough};
+  mesh_to_count(result, picture, edge, options, wish, clock, context);
+  if (is_draft) return;
   snap_to_features(result.mesh, shown, options.snap, context);
   clock.finish("snapping");
 }
@@ -96,6 +103,11 @@ void mesh_by_fields(Quadrangulation& result, const Raster& picture, double edge,
 
 Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& options,
                               const RunContext& context) {
+  return quadrangulate(picture, options, MeshQuality::final, context);
+}
+
+Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& options,
+                              MeshQuality quality, const RunContext& context) {
   check(options);
   check_raster(picture);
   if (!options.density.data.empty()) check_raster(options.density);
@@ -110,7 +122,8 @@ Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& opt
   // The fields cover the rectangle, at a resolution that a small outline would drive up.
   const bool worthwhile = whole || edge >= kShortestRegionEdge;
   const bool has_room = worthwhile && 2 * edge <= std::min(width, height) * kRoundingSlack;
-  if (has_room && !options.lattice) mesh_by_fields(result, picture, edge, options, context);
+  if (has_room && !options.lattice)
+    mesh_by_fields(result, picture, edge, options, quality, context);
   if (is_valid(result.mesh, result.outline, picture)) return result;
 
   result.fallback = !options.lattice;

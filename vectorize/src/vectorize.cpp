@@ -1,6 +1,9 @@
 // Field-aligned Quadrangulation for Image Vectorization (Wei et al. 2019).
 #include "quadrille/vectorize.h"
 
+#include <algorithm>
+
+#include "draft_mesh.h"
 #include "quadrille/mesh_region.h"
 #include "quadrille/patch_geometry.h"
 #include "quadrille/render.h"
@@ -8,6 +11,8 @@
 
 namespace quadrille {
 namespace {
+
+constexpr double kDraftTolerance = 1e-2;  // of fits that only guide the meshing
 
 VectorizeReport describe(const Raster& picture, const Quadrangulation& quads,
                          const PatchMesh& patches) {
@@ -53,9 +58,9 @@ VectorImage picture_of(const Raster& picture, PatchMesh patches) {
 
 bool is_lattice(const Quadrangulation& quads) { return quads.scale.along_x.data.empty(); }
 
-/// What a fit to the mesh shows at scale 1.
-Raster drawn(const QuadMesh& mesh, const Raster& shown, const FitOptions& fit,
-             const RunContext& context) {
+/// What a rough fit to the mesh shows at scale 1.
+Raster drawn(const QuadMesh& mesh, const Raster& shown, FitOptions fit, const RunContext& context) {
+  fit.tolerance = std::max(fit.tolerance, kDraftTolerance);
   return render(picture_of(shown, fit_patches(mesh, shown, fit, context)), {}, context);
 }
 
@@ -85,7 +90,8 @@ Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
     if (context.on_stage) context.on_stage(stage);
   };
 
-  Quadrangulation quads = quadrangulate(picture, options, recorded);
+  const MeshQuality quality = options.feedback > 0 ? MeshQuality::draft : MeshQuality::final;
+  Quadrangulation quads = quadrangulate(picture, options, quality, recorded);
   const Raster& shown = quads.outline.empty() ? picture : quads.inside;
   for (int round = 0; round < options.feedback && !is_lattice(quads); ++round) {
     refine_by_error(quads, picture, drawn(quads.mesh, shown, options.fit, recorded), options,

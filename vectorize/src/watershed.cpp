@@ -2,68 +2,77 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <numeric>
 #include <vector>
 
 namespace quadrille {
 namespace {
 
-/// The lowest way between two basins.
+constexpr int kLevels = 256;
+
+/// A place where two basins meet.
 struct Pass {
-  std::uint64_t basins;  ///< both, the lower number in the upper half
-  unsigned char height;
+  int a, b;
 };
 
-std::vector<Pass> lowest_passes(const FieldGrid<unsigned char>& height,
-                                const FieldGrid<int>& basin) {
-  std::vector<Pass> passes;
-  const auto meet = [&](std::size_t i, std::size_t j) {
-    const auto [a, b] = std::minmax(basin.data[i], basin.data[j]);
-    if (a == b) return;
-    passes.push_back({(static_cast<std::uint64_t>(a) << 32) | static_cast<std::uint64_t>(b),
-                      std::max(height.data[i], height.data[j])});
-  };
+/// Calls visit(a, b, height) for all places where two basins meet.
+template <class Visit>
+void for_each_pass(const FieldGrid<unsigned char>& height, const FieldGrid<int>& basin,
+                   const Visit& visit) {
   const std::size_t w = basin.width, h = basin.height;
+  const auto meet = [&](std::size_t i, std::size_t j) {
+    if (basin.data[i] == basin.data[j]) return;
+    visit(basin.data[i], basin.data[j], std::max(height.data[i], height.data[j]));
+  };
   for (std::size_t y = 0; y < h; ++y) {
     for (std::size_t x = 0; x < w; ++x) {
       if (x + 1 < w) meet(y * w + x, y * w + x + 1);
       if (y + 1 < h) meet(y * w + x, (y + 1) * w + x);
     }
   }
-  std::sort(passes.begin(), passes.end(), [](const Pass& a, const Pass& b) {
-    return a.basins != b.basins ? a.basins < b.basins : a.height < b.height;
-  });
-  passes.erase(std::unique(passes.begin(), passes.end(),
-                           [](const Pass& a, const Pass& b) { return a.basins == b.basins; }),
-               passes.end());
-  std::stable_sort(passes.begin(), passes.end(),
-                   [](const Pass& a, const Pass& b) { return a.height < b.height; });
-  return passes;
 }
+
+/// The passes in ascending order, by counting, and where each level begins.
+struct SortedPasses {
+  std::vector<Pass> passes;
+  std::array<std::size_t, kLevels + 1> level_begin{};
+
+  SortedPasses(const FieldGrid<unsigned char>& height, const FieldGrid<int>& basin) {
+    for_each_pass(height, basin, [&](int, int, int level) { ++level_begin[level + 1]; });
+    std::partial_sum(level_begin.begin(), level_begin.end(), level_begin.begin());
+    passes.resize(level_begin.back());
+    std::array<std::size_t, kLevels + 1> next = level_begin;
+    for_each_pass(height, basin, [&](int a, int b, int level) { passes[next[level]++] = {a, b}; });
+  }
+};
 
 }  // namespace
 
 FieldGrid<int> catchment_basins(const FieldGrid<unsigned char>& height) {
-  constexpr int kLevels = 256;
-  const int w = height.width, h = height.height;
-  const int count = w * h;
+  // With a rim that is never entered: as high as can be, and labelled.
+  const int w = height.width, h = height.height, stride = w + 2;
+  std::vector<unsigned char> level_at(static_cast<std::size_t>(stride) * (h + 2), kLevels - 1);
+  std::vector<int> label(level_at.size(), 0);
+  const auto row_begin = [&](int y) { return static_cast<std::size_t>(stride) * (y + 1) + 1; };
+  for (int y = 0; y < h; ++y) {
+    std::copy_n(&height.data[static_cast<std::size_t>(w) * y], w, &level_at[row_begin(y)]);
+    std::fill_n(&label[row_begin(y)], w, -1);
+  }
   // Cells in ascending order, by counting.
   std::array<int, kLevels + 1> level_begin{};
   for (const unsigned char level : height.data) ++level_begin[level + 1];
-  for (int l = 0; l < kLevels; ++l) level_begin[l + 1] += level_begin[l];
-  std::vector<int> order(count);
+  std::partial_sum(level_begin.begin(), level_begin.end(), level_begin.begin());
+  std::vector<int> order(height.data.size());
   std::array<int, kLevels + 1> next = level_begin;
-  for (int i = 0; i < count; ++i) order[next[height.data[i]]++] = i;
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      const int i = static_cast<int>(row_begin(y)) + x;
+      order[next[level_at[i]]++] = i;
+    }
+  }
 
-  FieldGrid<int> basin(w, h, -1);
-  std::vector<int>& label = basin.data;
   const auto for_neighbours = [&](int i, const auto& visit) {
-    const int x = i % w;
-    if (x > 0) visit(i - 1);
-    if (x + 1 < w) visit(i + 1);
-    if (i >= w) visit(i - w);
-    if (i + w < count) visit(i + w);
+    visit(i - 1), visit(i + 1), visit(i - stride), visit(i + stride);
   };
   int basins = 0;
   std::vector<int> queue;
@@ -71,7 +80,7 @@ FieldGrid<int> catchment_basins(const FieldGrid<unsigned char>& height) {
     for (std::size_t head = 0; head < queue.size(); ++head) {
       const int from = queue[head];
       for_neighbours(from, [&](int n) {
-        if (label[n] >= 0 || height.data[n] != level) return;
+        if (label[n] >= 0 || level_at[n] != level) return;
         label[n] = label[from];
         queue.push_back(n);
       });
@@ -83,7 +92,7 @@ FieldGrid<int> catchment_basins(const FieldGrid<unsigned char>& height) {
     for (int k = level_begin[level]; k < level_begin[level + 1]; ++k) {
       int from = -1;
       for_neighbours(order[k], [&](int n) {
-        if (from < 0 && label[n] >= 0 && height.data[n] < level) from = n;
+        if (from < 0 && label[n] >= 0 && level_at[n] < level) from = n;
       });
       if (from < 0) continue;
       label[order[k]] = label[from];
@@ -97,6 +106,10 @@ FieldGrid<int> catchment_basins(const FieldGrid<unsigned char>& height) {
       queue.assign(1, order[k]);
       flood(level);
     }
+  }
+  FieldGrid<int> basin(w, h);
+  for (int y = 0; y < h; ++y) {
+    std::copy_n(&label[row_begin(y)], w, &basin.data[static_cast<std::size_t>(w) * y]);
   }
   return basin;
 }
@@ -113,13 +126,16 @@ FieldGrid<int> merge_shallow_basins(const FieldGrid<unsigned char>& height, Fiel
     while (parent[b] != b) b = parent[b] = parent[parent[b]];
     return b;
   };
-  for (const Pass& pass : lowest_passes(height, basin)) {
-    const int a = root(static_cast<int>(pass.basins >> 32));
-    const int b = root(static_cast<int>(pass.basins & 0xffffffffu));
-    if (a == b || std::max(lowest[a], lowest[b]) < (1 - depth) * pass.height) continue;
-    const auto [kept, gone] = std::minmax(a, b);
-    parent[gone] = kept;
-    lowest[kept] = std::min(lowest[kept], lowest[gone]);
+  // Of the passes between two basins only the lowest can join them: basins only get deeper.
+  const SortedPasses sorted(height, basin);
+  for (int level = 0; level < kLevels; ++level) {
+    for (std::size_t p = sorted.level_begin[level]; p < sorted.level_begin[level + 1]; ++p) {
+      const int a = root(sorted.passes[p].a), b = root(sorted.passes[p].b);
+      if (a == b || std::max(lowest[a], lowest[b]) < (1 - depth) * level) continue;
+      const auto [kept, gone] = std::minmax(a, b);
+      parent[gone] = kept;
+      lowest[kept] = std::min(lowest[kept], lowest[gone]);
+    }
   }
   for (int& b : basin.data) b = root(b);
   return basin;

@@ -65,8 +65,9 @@ struct Quadrangulation {
   CrossField cross;
   ScaleField scale;
   PositionField position;
-  ChainNetwork chains;  ///< that the mesh's feature edges follow, source pixels
-  QuadMesh mesh;        ///< source pixels
+  ChainNetwork chains;       ///< that the mesh's feature edges follow, source pixels
+  QuadMesh mesh;             ///< source pixels
+  double lattice_cells = 0;  ///< that the scale and the positions were made for
   /// The axis-aligned lattice took the place of the fields' mesh, because the picture is smaller
   /// than 4 quads a side, because the quads of an opaque region are smaller than a source pixel,
   /// or, for an outline with strands that nearly touch, because no mesh of the fields was valid.
