@@ -31,6 +31,7 @@ void bend_features(QuadMesh& mesh, const std::vector<FeatureEdge>& features,
   }
   for (const HalvedEdge& edge : halved) {
     const auto [a, middle, b] = edge.path;
+    if (mesh.is_border_vertex(middle)) continue;  // a chain that meets the border grazes it
     const Vector2d chord_middle = mesh.vertices[middle];
     const Vector2d target = midpoint.at(edge.ends);
     const double least = std::min(smallest_sine_around(mesh, middle), kSoundSine);
