@@ -186,7 +186,6 @@ Eigen::Matrix2f JointSystem::inverse_stiffness(int v, float damping) const {
 }
 
 double JointSystem::multiply(const JointVector& x, float damping, JointVector& product) {
-  colors_.multiply(x.colors, product.colors);
   const auto& elements = colors_.groups();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, groups_.size(), 32), [&](const auto& range) {
     for (std::size_t g = range.begin(); g < range.end(); ++g) {
@@ -195,16 +194,7 @@ double JointSystem::multiply(const JointVector& x, float damping, JointVector& p
                           &move_parts_[g * kLaneCount]);
     }
   });
-  const double of_colors = sum_over_ranges(colors_.wedge_count(), 0.0, [&](int begin, int end) {
-    double sum = 0;
-    for (int w = begin; w < end; ++w) {
-      for (const int h : colors_.wedge_corners()[w]) {
-        product.colors[w] += color_parts_[h >> 2][h & 3];
-      }
-      sum += dot(x.colors[w], product.colors[w]);
-    }
-    return sum;
-  });
+  const double of_colors = colors_.gather(x.colors, color_parts_, product.colors).sum();
   const QuadMesh& mesh = patches_.mesh;
   return of_colors + sum_over_ranges(mesh.vertex_count(), 0.0, [&](int begin, int end) {
            double sum = 0;
