@@ -112,4 +112,25 @@ QUADRILLE_INLINE void from_control(const ElementGroup& group, const ControlLanes
   }
 }
 
+/// out = the moments of kLaneCount patches times in, see ElementGroup.
+QUADRILLE_INLINE void multiply_moments(const float (&moments)[49][kLaneCount],
+                                       const ControlLanes& in, ControlLanes& out) {
+  for (int j = 0; j < 4; ++j) {
+    Lanes sum[4] = {};
+#pragma GCC unroll 4
+    for (int l = 0; l < 4; ++l) {
+      Lanes row[7];
+#pragma GCC unroll 7
+      for (int p = 0; p < 7; ++p) load(moments[7 * (j + l) + p], row[p]);
+#pragma GCC unroll 4
+      for (int i = 0; i < 4; ++i) {
+#pragma GCC unroll 4
+        for (int k = 0; k < 4; ++k) sum[i] += row[i + k] * in[4 * l + k];
+      }
+    }
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; ++i) out[4 * j + i] = sum[i];
+  }
+}
+
 }  // namespace quadrille

@@ -3,30 +3,6 @@
 #include "corner_lanes.h"
 
 namespace quadrille {
-namespace {
-
-QUADRILLE_INLINE void multiply_moments(const float (&moments)[49][kLaneCount],
-                                       const ControlLanes& in, ControlLanes& out) {
-  for (int j = 0; j < 4; ++j) {
-    Lanes sum[4] = {};
-#pragma GCC unroll 4
-    for (int l = 0; l < 4; ++l) {
-      Lanes row[7];
-#pragma GCC unroll 7
-      for (int p = 0; p < 7; ++p) load(moments[7 * (j + l) + p], row[p]);
-#pragma GCC unroll 4
-      for (int i = 0; i < 4; ++i) {
-#pragma GCC unroll 4
-        for (int k = 0; k < 4; ++k) sum[i] += row[i + k] * in[4 * l + k];
-      }
-    }
-#pragma GCC unroll 4
-    for (int i = 0; i < 4; ++i) out[4 * j + i] = sum[i];
-  }
-}
-
-}  // namespace
-
 void ElementGroup::set(int lane, const std::array<CornerMap, 4>& maps, const double (&sums)[49],
                        const int* wedge_of_corner) {
   for (int i = 0; i < 49; ++i) moments[i][lane] = static_cast<float>(sums[i]);

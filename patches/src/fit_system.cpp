@@ -178,12 +178,17 @@ Eigen::Array4d ColorSystem::multiply(const Vector& x, Vector& product) {
   for_each_group([&](int g) {
     quadrille::multiply(groups_[g], channels_, x.data(), &scratch_[g * kLaneCount]);
   });
+  return gather(x, scratch_, product);
+}
+
+Eigen::Array4d ColorSystem::gather(const Vector& x, const std::vector<CornerUnknowns>& shares,
+                                   Vector& product) {
   mixed_.evaluate(x);
   return sum_over_ranges(wedge_count(), Eigen::Array4d(0, 0, 0, 0), [&](int begin, int end) {
     Eigen::Array4d sum = Eigen::Array4d::Zero();
     for (int w = begin; w < end; ++w) {
       product[w].setZero();
-      for (const int h : wedge_corners_[w]) product[w] += scratch_[h >> 2][h & 3];
+      for (const int h : wedge_corners_[w]) product[w] += shares[h >> 2][h & 3];
       mixed_.gather(w, product[w]);
       sum += x[w].cwiseProduct(product[w]).rowwise().sum().array().cast<double>();
     }

@@ -27,6 +27,11 @@ class ColorSystem : public NormalEquations {
   Eigen::Array4d multiply(const Vector& x, Vector& product) override;
   const Eigen::Matrix4f& inverse_block(int wedge) const override { return inverse_blocks_[wedge]; }
 
+  /// product = the patches' shares, added up at the wedges, and those of the mixed pixels for x;
+  /// returns the dot products with x per channel.
+  Eigen::Array4d gather(const Vector& x, const std::vector<CornerUnknowns>& shares,
+                        Vector& product);
+
   int channels() const { return channels_; }
   const WedgeCorners& wedge_corners() const { return wedge_corners_; }
   const MixedPixels& mixed_pixels() const { return mixed_; }

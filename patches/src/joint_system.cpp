@@ -44,8 +44,8 @@ void add_pixel(const Raster& picture, const Raster& mean, std::size_t pixel, int
 }
 
 /// Adds the samples of the block's patch number `local` to the sums: those at mixed pixels, or the
-/// others.
-void add_samples(const SampleBlock& samples, int local, const Raster& picture, const Raster& mean,
+/// others. Returns false when there were no more than these.
+bool add_samples(const SampleBlock& samples, int local, const Raster& picture, const Raster& mean,
                  const MixedPixels& mixed, bool at_mixed, MotionSums& sums) {
   MotionBatch batch;
   const auto flush = [&] {
@@ -63,9 +63,13 @@ void add_samples(const SampleBlock& samples, int local, const Raster& picture, c
   const auto width = static_cast<std::uint32_t>(picture.width);
   std::uint32_t expected = ~std::uint32_t{0};
   int x = 0, y = 0;
+  bool left_out = false;
   for (std::size_t sample = samples.begin[local]; sample < samples.begin[local + 1]; ++sample) {
     const std::uint32_t pixel = samples.pixel[sample];
-    if (mixed.contains(pixel) != at_mixed) continue;
+    if (mixed.contains(pixel) != at_mixed) {
+      left_out = true;
+      continue;
+    }
     ++x;
     if (pixel != expected || x == picture.width) {
       x = static_cast<int>(pixel % width);
@@ -79,6 +83,7 @@ void add_samples(const SampleBlock& samples, int local, const Raster& picture, c
     if (++batch.count == FitBatch::kSize) flush();
   }
   if (batch.count > 0) flush();
+  return left_out;
 }
 
 double dot(const WedgeUnknowns& a, const WedgeUnknowns& b) {
@@ -110,10 +115,13 @@ void JointSystem::assemble_block(const SampleBlock& samples, const Raster& pictu
   for (int local = 0; local < samples.patch_count(); ++local) {
     const int q = samples.first_patch + local, lane = q % kLaneCount;
     MotionSums sums{}, torn{};
-    add_samples(samples, local, picture, mean, colors_.mixed_pixels(), false, sums);
+    const bool has_mixed =
+        add_samples(samples, local, picture, mean, colors_.mixed_pixels(), false, sums);
     // The colours of torn pixels depend on several patches. They pull at the vertices, but without
     // regard to how colours change at the same time, which keeps the system positive definite.
-    add_samples(samples, local, picture, mean, colors_.mixed_pixels(), true, torn);
+    if (has_mixed) {
+      add_samples(samples, local, picture, mean, colors_.mixed_pixels(), true, torn);
+    }
     MotionGroup& group = groups_[q / kLaneCount];
     for (int c = 0; c < picture.channels; ++c) {
       for (int d = 0; d < 2; ++d) {
@@ -178,7 +186,6 @@ Eigen::Matrix2f JointSystem::inverse_stiffness(int v, float damping) const {
 }
 
 double JointSystem::multiply(const JointVector& x, float damping, JointVector& product) {
-  colors_.multiply(x.colors, product.colors);
   const auto& elements = colors_.groups();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, groups_.size(), 32), [&](const auto& range) {
     for (std::size_t g = range.begin(); g < range.end(); ++g) {
@@ -187,16 +194,7 @@ double JointSystem::multiply(const JointVector& x, float damping, JointVector& p
                           &move_parts_[g * kLaneCount]);
     }
   });
-  const double of_colors = sum_over_ranges(colors_.wedge_count(), 0.0, [&](int begin, int end) {
-    double sum = 0;
-    for (int w = begin; w < end; ++w) {
-      for (const int h : colors_.wedge_corners()[w]) {
-        product.colors[w] += color_parts_[h >> 2][h & 3];
-      }
-      sum += dot(x.colors[w], product.colors[w]);
-    }
-    return sum;
-  });
+  const double of_colors = colors_.gather(x.colors, color_parts_, product.colors).sum();
   const QuadMesh& mesh = patches_.mesh;
   return of_colors + sum_over_ranges(mesh.vertex_count(), 0.0, [&](int begin, int end) {
            double sum = 0;

@@ -121,8 +121,9 @@ void multiply(const ElementGroup& group, const MotionGroup& motion, int channels
     }
   }
   for (int c = 0; c < channels; ++c) {
-    ControlLanes in, out = {};
+    ControlLanes in, out;
     to_control(group, local[c], in);
+    multiply_moments(group.moments, in, out);
     for (int d = 0; d < 2; ++d) {
       for (int j = 0; j < 4; ++j) {
 #pragma GCC unroll 4

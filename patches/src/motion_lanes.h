@@ -38,8 +38,8 @@ struct MotionGroup {
 
 using CornerMoves = std::array<Eigen::Vector2f, 4>;
 
-/// The products that involve moves: colors[lane] = what the moves mean for the unknown colours,
-/// moves[lane] = what colours and moves mean for the moves.
+/// The matrix of kLaneCount patches times colours and moves together: colors[lane] for the unknown
+/// colours, moves[lane] for the moves. One pass for both, as they share the way to Bezier form.
 void multiply(const ElementGroup& group, const MotionGroup& motion, int channels,
               const WedgeUnknowns* x, const Eigen::Vector2f* p, CornerUnknowns* colors,
               CornerMoves* moves);

@@ -12,7 +12,7 @@
 namespace quadrille {
 namespace {
 
-constexpr double kDraftTolerance = 1e-2;  // of fits that only guide the meshing
+constexpr double kDraftTolerance = 1e-2;  // of fits that are made again
 
 VectorizeReport describe(const Raster& picture, const Quadrangulation& quads,
                          const PatchMesh& patches) {
@@ -58,10 +58,15 @@ VectorImage picture_of(const Raster& picture, PatchMesh patches) {
 
 bool is_lattice(const Quadrangulation& quads) { return quads.scale.along_x.data.empty(); }
 
-/// What a rough fit to the mesh shows at scale 1.
-Raster drawn(const QuadMesh& mesh, const Raster& shown, FitOptions fit, const RunContext& context) {
+FitOptions draft_fit(FitOptions fit) {
   fit.tolerance = std::max(fit.tolerance, kDraftTolerance);
-  return render(picture_of(shown, fit_patches(mesh, shown, fit, context)), {}, context);
+  return fit;
+}
+
+/// What a rough fit to the mesh shows at scale 1.
+Raster drawn(const QuadMesh& mesh, const Raster& shown, const FitOptions& fit,
+             const RunContext& context) {
+  return render(picture_of(shown, fit_patches(mesh, shown, draft_fit(fit), context)), {}, context);
 }
 
 /// Tears the chains of feature edges that are worth it; returns the number of candidates.
@@ -104,10 +109,15 @@ Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
   set_bessel_tangents(patches);
   guard_folds(patches);
   clock.finish("patches");
-  const FitReport fit = fit_colors(patches, shown, options.fit, recorded);
+  const bool is_last_fit = options.optimize.rounds == 0 || options.fit.method == FitMethod::bessel;
+  FitReport fit =
+      fit_colors(patches, shown, is_last_fit ? options.fit : draft_fit(options.fit), recorded);
   clock.finish("colours", {{"iterations", fit.iterations}});
   const OptimizeReport optimized =
       optimize_vertices(patches, shown, options.optimize, options.fit, recorded);
+  if (!is_last_fit && optimized.accepted == 0) {
+    fit = fit_colors(patches, shown, options.fit, recorded);
+  }
   clock.finish("vertices", {{"rounds", optimized.rounds.size()}, {"accepted", optimized.accepted}});
 
   Vectorization result;

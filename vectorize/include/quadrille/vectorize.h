@@ -92,7 +92,7 @@ struct VectorizeReport {
   MeshRegion region = MeshRegion::whole;  ///< of the mesh that was made
   int components = 0, holes = 0;          ///< of the mesh
   double outline_length = 0;              ///< pixels, around components and holes
-  FitReport fit;                          ///< on the mesh before its vertices were optimised
+  FitReport fit;  ///< on the mesh before its vertices were optimised, rough then
   OptimizeReport optimize;
   std::vector<StageReport> stages;
 };
