@@ -25,7 +25,7 @@ namespace {
 constexpr double kFirstDamping = 0.3, kDampingOnSuccess = 0.4, kDampingOnFailure = 5;
 /// Shape energy in units of a mean quad's pixels times the root of the mean squared error; with it
 /// quads come out equally well shaped in calm and in busy pictures.
-constexpr double kShapeScale = 0.08;
+constexpr double kShapeScale = 0.16;
 /// The colours of a round need not be better than its step.
 constexpr double kRoundTolerance = 3e-2;
 

@@ -181,6 +181,7 @@ TEST(OpaqueRegion, SamplesAreReproducedBetterThanByAMeshOfTheWhole) {
     // As meshed: a mesh of the whole may move its vertices to the outline afterwards.
     const auto mae = [&](VectorizeOptions options) {
       options.optimize.rounds = 0;
+      options.tears.mode = TearOptions::Mode::off;
       return compare(picture, render(vectorize(picture, options).image)).mae;
     };
     const double opaque = mae(opaque_with(1000)), whole = mae({.quads = 1000});
