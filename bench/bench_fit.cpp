@@ -124,8 +124,9 @@ int main(int argc, char** argv) {
   parser.add_option("--fits", options.fits, "only these ways of estimating colours")
       ->delimiter(',');
   parser
-      .add_option("--upscale-quads", options.upscale.quads, "wished quads of the reduced drawings")
-      ->check(CLI::Range(1, 2'000'000));
+      .add_option("--upscale-quads", options.upscale.quads,
+                  "wished quads of the reduced drawings; 0: their preset's")
+      ->check(CLI::Range(0, 2'000'000));
   parser
       .add_option("--upscale-photo-quads", options.upscale.photo_quads,
                   "those of the reduced photographs")

@@ -1,5 +1,5 @@
-// The steps of vectorize() one by one: the mesh, then its colours by each way of estimating them,
-// and how far each is from the picture.
+// The steps of vectorize() one by one: a mesh, its colours by each way of estimating them, the mesh
+// once more where they err, tears and moved vertices, and how far each is from the picture.
 //   stage_by_stage picture.jpg
 #include <cstdio>
 #include <utility>
@@ -22,6 +22,16 @@ quadrille::VectorImage image_of(const quadrille::Raster& picture, quadrille::Pat
   return image;
 }
 
+/// Draws the patches, prints how far they are from the picture, and returns the drawing.
+quadrille::Raster judge(const char* step, const quadrille::Raster& picture,
+                        const quadrille::PatchMesh& patches) {
+  const quadrille::Raster drawn = quadrille::render(image_of(picture, patches));
+  const quadrille::ImageDifference difference = quadrille::compare(picture, drawn);
+  std::printf("%-10s %5d quads, MAE %5.2f, PSNR %5.2f dB\n", step, patches.patch_count(),
+              difference.mae, difference.psnr);
+  return drawn;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -42,16 +52,29 @@ int main(int argc, char** argv) {
                 quadrille::singularities(quads.cross).size());
 
     // Geometry and first colours in one step; fit_colors() estimates them anew on the same patches.
-    quadrille::PatchMesh patches = quadrille::fit_patches(std::move(quads.mesh), picture);
+    quadrille::PatchMesh patches = quadrille::fit_patches(quads.mesh, picture);
+    quadrille::Raster drawn;
     for (const auto& [name, method] : {std::pair{"bessel", quadrille::FitMethod::bessel},
+                                       std::pair{"bessel-ls", quadrille::FitMethod::bessel_ls},
                                        std::pair{"hermite", quadrille::FitMethod::hermite}}) {
-      const quadrille::FitReport fit = quadrille::fit_colors(patches, picture, {.method = method});
-      const quadrille::VectorImage image = image_of(picture, patches);
-      const quadrille::ImageDifference difference =
-          quadrille::compare(picture, quadrille::render(image));
-      std::printf("%-8s MAE %5.2f, PSNR %5.2f dB after %d iterations\n", name, difference.mae,
-                  difference.psnr, fit.iterations);
+      quadrille::fit_colors(patches, picture, {.method = method});
+      drawn = judge(name, picture, patches);
     }
+
+    // The mesh once more, where the fit errs, along the picture's sharp edges.
+    quadrille::refine_by_error(quads, picture, drawn, options);
+    const auto chains = quadrille::feature_edge_chains(quads.mesh);
+    const auto torn =
+        quadrille::judge_tears(quads.mesh, chains, picture, options.fit, options.tears);
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      for (const int edge : chains[c]) {
+        if (torn[c]) quads.mesh.edge_flags[edge] |= quadrille::kTearEdge;
+      }
+    }
+    patches = quadrille::fit_patches(quads.mesh, picture);
+    judge("refined", picture, patches);
+    quadrille::optimize_vertices(patches, picture);
+    judge("optimised", picture, patches);
   } catch (const quadrille::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -19,6 +19,7 @@ const FitMode& fit_named(const std::string& name) {
 
 const std::vector<FitMode>& fit_modes() {
   static const std::vector<FitMode> modes = {{"hermite", FitMethod::hermite, 4},
+                                             {"bessel-ls", FitMethod::bessel_ls, 1},
                                              {"bessel", FitMethod::bessel, 1}};
   return modes;
 }

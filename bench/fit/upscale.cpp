@@ -36,8 +36,13 @@ Json measure(const std::filesystem::path& path, const UpscaleOptions& wish) {
       crop(whole, 0, 0, whole.width / kFactor * kFactor, whole.height / kFactor * kFactor);
   const Raster small = reduced(original, kFactor);
   VectorizeOptions options;
-  const bool photo = choose_preset(original).name == "photo";
-  options.quads = photo ? wish.photo_quads : wish.quads;
+  const Preset& preset = choose_preset(original);
+  apply(preset, small, options);
+  if (preset.name == "photo") {
+    options.quads = wish.photo_quads;
+  } else if (wish.quads > 0) {
+    options.quads = wish.quads;
+  }
   const VectorImage image = vectorize(small, options, context).image;
   RenderOptions large;
   large.scale = kFactor;

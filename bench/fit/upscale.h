@@ -6,7 +6,7 @@
 namespace quadrille::bench {
 
 struct UpscaleOptions {
-  int quads = 8000;
+  int quads = 0;             ///< of drawings; 0: as many as their preset gives the small picture
   int photo_quads = 16'000;  ///< where choose_preset() takes the original for a photograph
   int threads = 0;
 };
