@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "count_meshing.h"
+#include "meshed_region.h"
 #include "opencv_errors.h"
 #include "premultiplied_colours.h"
 #include "quadrille/alpha_outline.h"
@@ -23,7 +24,7 @@ constexpr double kMostChange = 6;      // of the density, either way
 constexpr double kWindow = 0.35;       // sigma of the error's window, in edges
 constexpr double kBesideChain = 2;     // pixels on either side whose error a chain answers for
 constexpr double kWorstCorner = 0.18;  // sine; chains that lead to worse ones are not followed
-constexpr int kMeshRounds = 3;
+constexpr int kMeshRounds = 4;
 // Quads per cell grow by as much where the mesh is graded by the error, and by so many times the
 // share of the vertices that lie on chains, which stay apart where others merge; as measured.
 constexpr double kGradingGain = 1.01, kChainGain = 1.2;
@@ -149,10 +150,10 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
   if (fitted.width != shown.width || fitted.height != shown.height) {
     throw Error(ErrorCode::invalid_argument, "the fitted picture differs from the picture in size");
   }
-  if (quads.scale.along_x.data.empty()) return;  // a lattice
+  if (quads.fallback || quads.scale.along_x.data.empty()) return;  // a lattice
   StageClock clock(context);
   FieldGrid<float> error = squared_error(shown, fitted);
-  const double edge = 2 * std::sqrt(1.0 * picture.width * picture.height / options.quads);
+  const double edge = 2 * std::sqrt(region_area(quads.outline, picture) / options.quads);
   if (whole && options.chain_share > 0 && options.tears.mode != TearOptions::Mode::off) {
     quads.chains = feature_chains(shown, options.chains, context);
     keep_worthwhile(quads.chains, error, edge, options.quads / 4.0, options.least_chain_gain);
@@ -168,16 +169,12 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
   const QuadMesh before = quads.mesh;
   for (int round = 0; round < kMeshRounds; ++round) {
     mesh_to_count(quads, picture, edge, options, wish, clock, context);
-    if (!is_valid(quads.mesh, quads.outline, picture)) {
-      if (quads.chains.chains.empty()) wish.density = map;
-      quads.chains = {};
-    } else if (!leave_out_bad_chains(quads, edge)) {
-      break;
-    }
+    const bool valid = is_valid(quads.mesh, quads.outline, picture);
+    if (valid && !leave_out_bad_chains(quads, edge)) break;
+    if (quads.chains.chains.empty()) wish.density = map;
+    if (!valid || round + 2 == kMeshRounds) quads.chains = {};
   }
-  if (!is_valid(quads.mesh, quads.outline, picture)) {
-    quads.mesh = before;
-  }
+  if (!is_valid(quads.mesh, quads.outline, picture)) quads.mesh = before;
   snap_to_features(quads.mesh, shown, options.snap, context);
   clock.finish("snapping");
 }

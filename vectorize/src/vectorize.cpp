@@ -56,7 +56,9 @@ VectorImage picture_of(const Raster& picture, PatchMesh patches) {
   return image;
 }
 
-bool is_lattice(const Quadrangulation& quads) { return quads.scale.along_x.data.empty(); }
+bool is_lattice(const Quadrangulation& quads) {
+  return quads.fallback || quads.scale.along_x.data.empty();
+}
 
 FitOptions draft_fit(FitOptions fit) {
   fit.tolerance = std::max(fit.tolerance, kDraftTolerance);
