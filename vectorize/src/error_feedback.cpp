@@ -171,7 +171,7 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
     mesh_to_count(quads, picture, edge, options, wish, clock, context);
     const bool valid = is_valid(quads.mesh, quads.outline, picture);
     if (valid && !leave_out_bad_chains(quads, edge)) break;
-    if (quads.chains.chains.empty()) wish.density = map;
+    if (!valid && quads.chains.chains.empty()) wish.density = map;
     if (!valid || round + 2 == kMeshRounds) quads.chains = {};
   }
   if (!is_valid(quads.mesh, quads.outline, picture)) quads.mesh = before;
