@@ -77,7 +77,7 @@ TEST(OpaqueRegionExport, PngIsTransparentOutsideAndInTheHole) {
 
 TEST(OpaqueRegionExport, DocumentKeepsTheRectangleAndThePatches) {
   const fs::path path = output("ring.quad");
-  save_document(ring(), path);
+  save_document(ring(), path, {DocumentEncoding::lossless});
   const VectorImage again = load_document(path);
   EXPECT_EQ(again.width, 96);
   EXPECT_EQ(again.height, 80);

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSoundSine = 0.25;  // of the worst corner; below it corners must not get worse
+constexpr double kSoundSine = 0.2;  // of the worst corner; below it corners must not get worse
 
 int edge_between(const QuadMesh& mesh, int a, int b) {
   for (const int h : mesh.fan(a)) {
@@ -32,11 +32,11 @@ void bend_features(QuadMesh& mesh, const std::vector<FeatureEdge>& features,
   for (const HalvedEdge& edge : halved) {
     const auto [a, middle, b] = edge.path;
     if (mesh.is_border_vertex(middle)) continue;  // a chain's chord along a side of the picture
-    const Vector2d chord_middle = mesh.vertices[middle];
+    const Vector2d start = mesh.vertices[middle];
     const Vector2d target = midpoint.at(edge.ends);
     const double least = std::min(smallest_sine_around(mesh, middle), kSoundSine);
-    for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
-      mesh.vertices[middle] = chord_middle + share * (target - chord_middle);
+    for (const double share : {1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.25, 0.0}) {
+      mesh.vertices[middle] = start + share * (target - start);
       if (smallest_sine_around(mesh, middle) >= least) break;
     }
     for (const int v : edge.path) guides[v] = VertexGuide::at(mesh.vertices[v]);

@@ -53,6 +53,17 @@ void release(QuadMesh& mesh, int v, std::span<VertexGuide> guides) {
   if (!mesh.is_border_vertex(v)) guides[v] = VertexGuide::free();
 }
 
+/// Lets a vertex inside a chain of feature edges slide along it.
+void loosen(const QuadMesh& mesh, int v, std::span<VertexGuide> guides) {
+  if (mesh.is_border_vertex(v)) return;
+  std::vector<Eigen::Vector2d> ends;
+  for (const int h : mesh.fan(v)) {
+    if (mesh.edge_flags[mesh.edge(h)] & kFeatureEdge) ends.push_back(mesh.vertices[mesh.tip(h)]);
+  }
+  if (ends.size() != 2 || ends[0] == ends[1]) return;
+  guides[v] = VertexGuide::on_line(mesh.vertices[v], (ends[1] - ends[0]).normalized());
+}
+
 /// The vertices of some quads and of the quads around them, ascending.
 std::vector<int> vertices_around(const QuadMesh& mesh, const std::vector<int>& quads) {
   std::vector<int> found;
@@ -81,10 +92,12 @@ void release_bad_features(QuadMesh& mesh, std::span<VertexGuide> guides, double 
       if (scaled_jacobian(mesh, q) < least_sine) bad.push_back(q);
     }
     if (bad.empty()) return;
-    // Smoothing alone first.
+    // Smoothing alone first, then with vertices that slide along their features.
     for (const int q : bad) {
-      if (round == 0) break;
-      for (const int v : mesh.quads()[q]) release(mesh, v, guides);
+      for (const int v : mesh.quads()[q]) {
+        if (round == 1) loosen(mesh, v, guides);
+        if (round > 1) release(mesh, v, guides);
+      }
     }
     for (int sweep = 0; sweep < kReleaseSweeps; ++sweep) {
       for (const int v : vertices_around(mesh, bad)) {
