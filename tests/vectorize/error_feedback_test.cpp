@@ -61,17 +61,23 @@ TEST(RefineByError, FeatureEdgesCloseAroundADisc) {
       EXPECT_NEAR(mesh.quad_count(), quads, 0.05 * quads);
       EXPECT_EQ(result.chains.chains.size(), 1u);
       std::vector<int> edges_at(mesh.vertex_count(), 0);
+      std::vector<double> chord_at(mesh.vertex_count(), 0);
       double length = 0;
       for (int e = 0; e < mesh.edge_count(); ++e) {
         if (!(mesh.edge_flags[e] & kFeatureEdge)) continue;
         const int h = mesh.halfedge(e), a = mesh.origin(h), b = mesh.tip(h);
         ++edges_at[a], ++edges_at[b];
-        length += (mesh.vertices[b] - mesh.vertices[a]).norm();
+        const double side = (mesh.vertices[b] - mesh.vertices[a]).norm();
+        chord_at[a] += side, chord_at[b] += side;
+        length += side;
       }
       for (int v = 0; v < mesh.vertex_count(); ++v) {
         EXPECT_THAT(edges_at[v], testing::AnyOf(0, 2)) << "open at " << v;
         if (edges_at[v] == 0) continue;
-        EXPECT_NEAR((mesh.vertices[v] - centre).norm(), radius, 0.3);
+        // A vertex that slides leaves the chain a little; where a bend would ruin a corner it stays
+        // on the chord of its neighbours.
+        const double sagitta = chord_at[v] * chord_at[v] / (8 * radius);
+        EXPECT_NEAR((mesh.vertices[v] - centre).norm(), radius, std::max(0.15, 0.05 + sagitta));
       }
       EXPECT_NEAR(length, 2 * std::numbers::pi * radius, 0.05 * length);
     }
