@@ -27,6 +27,10 @@ void check_fit(const PatchMesh& patches, const Raster& picture, const FitOptions
     reject("the fit's regularization is " + std::to_string(options.regularization) +
            "; use a small positive number such as 1e-4");
   }
+  if (!(options.smoothness >= 0) || !std::isfinite(options.smoothness)) {
+    reject("the fit's smoothness is " + std::to_string(options.smoothness) +
+           "; use a length in pixels such as 0.2, or 0 for none");
+  }
   if (!(options.tolerance > 0 && options.tolerance < 1)) {
     reject("the fit's tolerance is " + std::to_string(options.tolerance) +
            "; use a number between 0 and 1 such as 1e-4");
@@ -37,7 +41,7 @@ namespace {
 
 FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
                                    const FitOptions& options, const RunContext& context) {
-  ColorSystem system(patches, picture, options.regularization, context);
+  ColorSystem system(patches, picture, options, context);
   FitReport report;
   NormalEquations::Vector correction;
   if (options.method == FitMethod::bessel_ls) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fit_lanes.h"
+#include "fit_smoothness.h"
 #include "parallel_ranges.h"
 #include "patch_samples.h"
 #include "picture_sampling.h"
@@ -17,10 +18,6 @@ namespace {
 /// Damping of what a mixture leaves open, beside that of every square pixel: else slivers between
 /// tears would take any colour to explain their pixels.
 constexpr double kOpenWeight = 300;
-// A vertex has four unknowns per channel, so patches of few pixels are damped more: by this power
-// of the number of pixels that suffices over theirs, up to a limit. Without it colours between the
-// pixels of such patches are anything, which shows when the picture is enlarged.
-constexpr double kAmplePixels = 28, kScarcityPower = 4, kMostScarcity = 500;
 constexpr double kBlockFloor = 1e-5;  // relative to a unit diagonal
 
 /// Adds the samples of the block's patch number `local` to the sums.
@@ -49,17 +46,6 @@ void add_samples(const SampleBlock& samples, int local, const Raster& picture,
     }
     add_batch(model, picture.channels, batch, sums);
   }
-}
-
-double quad_area(const QuadMesh& mesh, int q) {
-  const QuadMesh::Quad& c = mesh.quads()[q];
-  const Eigen::Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
-  const Eigen::Vector2d e = mesh.vertices[c[3]] - mesh.vertices[c[1]];
-  return std::abs(0.5 * (d.x() * e.y() - d.y() * e.x()));
-}
-
-double scarcity(double pixels) {
-  return std::min(kMostScarcity, 1 + std::pow(kAmplePixels / pixels, kScarcityPower));
 }
 
 WedgeUnknowns unknowns_of(const Wedge& w) {
@@ -96,22 +82,24 @@ void add_correction(const ColorSystem::Vector& correction, std::vector<Wedge>& w
   });
 }
 
-ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, double regularization,
+ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, const FitOptions& options,
                          const RunContext& context, std::vector<SampleBlock>* keep)
     : channels_(picture.channels),
       wedge_corners_(patches),
-      mixed_(patches, picture),
+      mixed_(patches, picture, rows_),
       groups_(padded_count(patches.patch_count()) / kLaneCount),
       scratch_(padded_count(patches.patch_count())),
       inverse_blocks_(patches.wedges.size()) {
   right_hand_side.resize(patches.wedges.size());
-  assemble(patches, picture, regularization, context, keep);
-  mixed_.evaluate_residual();
+  if (options.smoothness > 0) add_smoothness(patches, options.smoothness, rows_);
+  rows_.finish(patches.wedges.size());
+  assemble(patches, picture, options.regularization, context, keep);
+  rows_.evaluate_residual();
   for_each_range(wedge_count(), [&](int begin, int end) {
     for (int w = begin; w < end; ++w) {
       right_hand_side[w].setZero();
       for (const int h : wedge_corners_[w]) right_hand_side[w] += scratch_[h >> 2][h & 3];
-      mixed_.gather(w, right_hand_side[w]);
+      rows_.gather(w, right_hand_side[w]);
     }
   });
   invert_blocks();
@@ -130,9 +118,9 @@ void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, doub
       ControlColors model;
       control_colors(patches, q, corners, model);
       FitSums sums{};
-      const double area = quad_area(patches.mesh, q);
-      const auto damping = uniform_moments(
-          regularization * (area * scarcity(area) + kOpenWeight * mixed_.open_area(q)));
+      const double area = std::abs(quad_area(patches.mesh, q));
+      const auto damping =
+          uniform_moments(regularization * (area + kOpenWeight * mixed_.open_area(q)));
       std::copy(damping.begin(), damping.end(), sums.moments);
       add_samples(samples, local, picture, mixed_, model, sums);
       groups_[q / kLaneCount].set(q % kLaneCount, corners, sums.moments,
@@ -161,7 +149,7 @@ void ColorSystem::invert_blocks() {
   for_each_group([&](int g) { diagonal_blocks(groups_[g], &scratch_[g * kLaneCount]); });
   for_each_range(wedge_count(), [&](int begin, int end) {
     for (int w = begin; w < end; ++w) {
-      Eigen::Matrix4d block = mixed_.block(w);
+      Eigen::Matrix4d block = rows_.block(w);
       for (const int h : wedge_corners_[w]) block += scratch_[h >> 2][h & 3].cast<double>();
       // Unit diagonal first: the four unknowns differ by powers of the edge length.
       const Eigen::Vector4d scale = block.diagonal().cwiseSqrt().cwiseInverse();
@@ -183,13 +171,13 @@ Eigen::Array4d ColorSystem::multiply(const Vector& x, Vector& product) {
 
 Eigen::Array4d ColorSystem::gather(const Vector& x, const std::vector<CornerUnknowns>& shares,
                                    Vector& product) {
-  mixed_.evaluate(x);
+  rows_.evaluate(x);
   return sum_over_ranges(wedge_count(), Eigen::Array4d(0, 0, 0, 0), [&](int begin, int end) {
     Eigen::Array4d sum = Eigen::Array4d::Zero();
     for (int w = begin; w < end; ++w) {
       product[w].setZero();
       for (const int h : wedge_corners_[w]) product[w] += shares[h >> 2][h & 3];
-      mixed_.gather(w, product[w]);
+      rows_.gather(w, product[w]);
       sum += x[w].cwiseProduct(product[w]).rowwise().sum().array().cast<double>();
     }
     return sum;

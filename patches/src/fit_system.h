@@ -15,19 +15,20 @@
 namespace quadrille {
 
 /// The normal equations of fitting a correction to the colours that a PatchMesh has: unknowns per
-/// wedge, one equation per pixel: at its centre element by element, or a mixture near tears. It
-/// runs in the caller's tbb arena.
+/// wedge, one equation per pixel: at its centre element by element, or a mixture near tears; and
+/// those that ask for smoothness. It runs in the caller's tbb arena.
 class ColorSystem : public NormalEquations {
  public:
   /// Scans the picture. The correction is damped as if every square pixel had another equation of
-  /// weight `regularization` that asks for no correction. With `keep` the samples are left there.
-  ColorSystem(const PatchMesh& patches, const Raster& picture, double regularization,
+  /// weight options.regularization that asks for no correction. With `keep` the samples are left
+  /// there.
+  ColorSystem(const PatchMesh& patches, const Raster& picture, const FitOptions& options,
               const RunContext& context, std::vector<SampleBlock>* keep = nullptr);
 
   Eigen::Array4d multiply(const Vector& x, Vector& product) override;
   const Eigen::Matrix4f& inverse_block(int wedge) const override { return inverse_blocks_[wedge]; }
 
-  /// product = the patches' shares, added up at the wedges, and those of the mixed pixels for x;
+  /// product = the patches' shares, added up at the wedges, and those of the other equations for x;
   /// returns the dot products with x per channel.
   Eigen::Array4d gather(const Vector& x, const std::vector<CornerUnknowns>& shares,
                         Vector& product);
@@ -35,6 +36,8 @@ class ColorSystem : public NormalEquations {
   int channels() const { return channels_; }
   const WedgeCorners& wedge_corners() const { return wedge_corners_; }
   const MixedPixels& mixed_pixels() const { return mixed_; }
+  /// Those of the mixed pixels first, then what asks for smoothness.
+  const WedgeRows& rows() const { return rows_; }
   /// Patch q has place q % kLaneCount of group q / kLaneCount.
   const std::vector<ElementGroup>& groups() const { return groups_; }
 
@@ -47,6 +50,7 @@ class ColorSystem : public NormalEquations {
 
   int channels_;
   WedgeCorners wedge_corners_;
+  WedgeRows rows_;
   MixedPixels mixed_;
   std::vector<ElementGroup> groups_;
   std::vector<CornerUnknowns> scratch_;  // per patch, and for the empty places of the last group

@@ -48,10 +48,9 @@ std::array<Eigen::Vector4f, 4> corner_factors(const std::array<CornerMap, 4>& co
   return factors;
 }
 
-}  // namespace
-
 /// The rows of the pixels of one block.
-struct MixedPixels::BlockRows {
+struct BlockRows {
+  using Entry = WedgeRows::Entry;
   struct Row {
     int x, y;
     float covered = 0;
@@ -110,7 +109,9 @@ struct MixedPixels::BlockRows {
   }
 };
 
-MixedPixels::MixedPixels(const PatchMesh& patches, const Raster& picture) {
+}  // namespace
+
+MixedPixels::MixedPixels(const PatchMesh& patches, const Raster& picture, WedgeRows& rows) {
   if (!has_mixed_pixels(patches.mesh, picture)) return;
   const SampleWindow whole = {0, 0, picture.width, picture.height};
   const PatchScan scan(patches, SampleGrid{});
@@ -129,68 +130,14 @@ MixedPixels::MixedPixels(const PatchMesh& patches, const Raster& picture) {
 
   is_mixed_.assign(static_cast<std::size_t>(picture.width) * picture.height, 0);
   open_area_.assign(patches.patch_count(), 0);
-  row_begin_.push_back(0);
   for (const BlockRows& block : blocks) {
     for (const auto& [patch, area] : block.open_areas) open_area_[patch] += area;
     for (const BlockRows::Row& row : block.rows) {
       pixels_.push_back(static_cast<std::size_t>(row.y) * picture.width + row.x);
       is_mixed_[pixels_.back()] = 1;
-      Eigen::Array4d rest = row.color(picture);
-      for (const Entry& e : row.entries) {
-        const Wedge& w = patches.wedges[e.wedge];
-        rest -= (w.value * e.factors[0] + w.dx * e.factors[1] + w.dy * e.factors[2] +
-                 w.twist * e.factors[3])
-                    .cast<double>();
-      }
-      if (!picture.has_alpha()) rest.w() = 0;
-      residual_.push_back(rest.matrix().cast<float>());
-      entries_.insert(entries_.end(), row.entries.begin(), row.entries.end());
-      row_begin_.push_back(static_cast<int>(entries_.size()));
+      rows.add(row.entries, patches, row.color(picture));
     }
   }
-  values_.resize(residual_.size());
-  sort_by_wedge(patches.wedges.size());
-}
-
-void MixedPixels::sort_by_wedge(std::size_t wedge_count) {
-  wedge_begin_.assign(wedge_count + 1, 0);
-  for (const Entry& e : entries_) ++wedge_begin_[e.wedge + 1];
-  std::partial_sum(wedge_begin_.begin(), wedge_begin_.end(), wedge_begin_.begin());
-  wedge_entries_.resize(entries_.size());
-  std::vector<int> next(wedge_begin_.begin(), wedge_begin_.end() - 1);
-  for (std::size_t r = 0; r + 1 < row_begin_.size(); ++r) {
-    for (int i = row_begin_[r]; i < row_begin_[r + 1]; ++i) {
-      wedge_entries_[next[entries_[i].wedge]++] = {static_cast<int>(r), i};
-    }
-  }
-}
-
-void MixedPixels::evaluate_residual() { values_ = residual_; }
-
-void MixedPixels::evaluate(const Vector& x) {
-  for_each_range(static_cast<int>(values_.size()), [&](int begin, int end) {
-    for (int r = begin; r < end; ++r) {
-      values_[r] = product(r, x);
-    }
-  });
-}
-
-void MixedPixels::gather(int wedge, WedgeUnknowns& sum) const {
-  if (empty()) return;
-  for (int i = wedge_begin_[wedge]; i < wedge_begin_[wedge + 1]; ++i) {
-    const auto [row, entry] = wedge_entries_[i];
-    sum += values_[row] * entries_[entry].factors.transpose();
-  }
-}
-
-Eigen::Matrix4d MixedPixels::block(int wedge) const {
-  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
-  if (empty()) return sum;
-  for (int i = wedge_begin_[wedge]; i < wedge_begin_[wedge + 1]; ++i) {
-    const Eigen::Vector4d f = entries_[wedge_entries_[i][1]].factors.cast<double>();
-    sum += f * f.transpose();
-  }
-  return sum;
 }
 
 }  // namespace quadrille

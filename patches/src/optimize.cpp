@@ -61,7 +61,7 @@ class State {
   /// The colours that the patches have are improved upon, or kept where `solved`.
   State(PatchMesh start, bool solved, const Raster& picture, const FitOptions& fit,
         const RunContext& context)
-      : patches(std::move(start)), colors(patches, picture, fit.regularization, context, &samples) {
+      : patches(std::move(start)), colors(patches, picture, fit, context, &samples) {
     ColorSystem::Vector correction(patches.wedges.size(), WedgeUnknowns::Zero());
     if (!solved) {
       FitReport report;
@@ -78,7 +78,11 @@ class State {
   ColorSystem colors;
   Raster mean;  ///< of the picture and what the patches show, premultiplied
   int iterations = 0;
-  double squared_error = 0, shape_energy = 0;
+  double squared_error = 0, roughness = 0, shape_energy = 0;
+
+  double cost(double shape_weight) const {
+    return squared_error + roughness + shape_weight * shape_energy;
+  }
 
  private:
   void show(const Raster& picture, const ColorSystem::Vector& correction);
@@ -101,15 +105,21 @@ void State::show(const Raster& picture, const ColorSystem::Vector& correction) {
     }
   });
   for (const double e : errors) squared_error += e;
-  colors.mixed_pixels().for_each_rest(correction, [&](std::size_t pixel, const Color& rest) {
-    const Color given = premultiplied_pixel(picture, pixel);
+  const std::vector<std::size_t>& mixed = colors.mixed_pixels().pixels();
+  for (std::size_t row = 0; row < colors.rows().size(); ++row) {
+    const Eigen::Vector4f rest = colors.rows().rest(row, correction);
+    if (row >= mixed.size()) {
+      roughness += static_cast<double>(rest.squaredNorm());
+      continue;
+    }
+    const Color given = premultiplied_pixel(picture, mixed[row]);
     for (int c = 0; c < picture.channels; ++c) {
-      float& between = mean.data[pixel * picture.channels + c];
+      float& between = mean.data[mixed[row] * picture.channels + c];
       const double at_center = 2 * (given[c] - between), now = rest[c];
       squared_error += now * now - at_center * at_center;
       between = given[c] - 0.5f * rest[c];
     }
-  });
+  }
 }
 
 double State::show_patch(const SampleBlock& block, int local, const Raster& picture) {
@@ -193,8 +203,7 @@ OptimizeReport take_rounds(PatchMesh& patches, const Raster& picture,
     auto next = std::make_unique<State>(moved(*state, step, *guides, options.min_scaled_jacobian),
                                         false, picture, round_fit, inner);
     round.color_iterations = next->iterations;
-    round.accepted = next->squared_error + weight * next->shape_energy <
-                     state->squared_error + weight * state->shape_energy;
+    round.accepted = next->cost(weight) < state->cost(weight);
     if (round.accepted) {
       system.reset();
       state = std::move(next);

@@ -103,6 +103,13 @@ int count_irregular_vertices(const QuadMesh& mesh) {
   return count - corners;
 }
 
+double quad_area(const QuadMesh& mesh, int q) {
+  const QuadMesh::Quad& c = mesh.quads()[q];
+  const Eigen::Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
+  const Eigen::Vector2d e = mesh.vertices[c[3]] - mesh.vertices[c[1]];
+  return 0.5 * (d.x() * e.y() - d.y() * e.x());
+}
+
 double scaled_jacobian(const QuadMesh& mesh, int q) {
   double smallest = 1;
   for (int k = 0; k < 4; ++k) {

@@ -54,10 +54,7 @@ std::vector<MeshViolation> validate(const QuadMesh& mesh, double width, double h
 
   double area = 0;
   for (int q = 0; q < mesh.quad_count(); ++q) {
-    const auto& c = mesh.quads()[q];
-    const Eigen::Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
-    const Eigen::Vector2d e = mesh.vertices[c[3]] - mesh.vertices[c[1]];
-    area += 0.5 * (d.x() * e.y() - d.y() * e.x());
+    area += quad_area(mesh, q);
     const double sine = scaled_jacobian(mesh, q);
     if (!(sine > 0)) found.push_back({"corner", q, sine});
   }

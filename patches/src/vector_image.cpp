@@ -20,11 +20,7 @@ bool VectorImage::opaque() const {
   if (!bottom.transform.isApprox(Eigen::Affine2d::Identity(), 1e-12)) return false;
   double area = 0;
   const QuadMesh& mesh = bottom.patches.mesh;
-  for (const auto& c : mesh.quads()) {
-    const Eigen::Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
-    const Eigen::Vector2d e = mesh.vertices[c[3]] - mesh.vertices[c[1]];
-    area += 0.5 * (d.x() * e.y() - d.y() * e.x());
-  }
+  for (int q = 0; q < mesh.quad_count(); ++q) area += quad_area(mesh, q);
   return std::abs(area - width * height) <= 1e-9 * width * height;
 }
 

@@ -218,21 +218,25 @@ TEST(MixedPixels, AgreeWithTheRenderer) {
   for (const bool opaque : {true, false}) {
     const PatchMesh patches = torn_patches(3, opaque);
     const Raster picture = render(single_layer(patches, 150, 100));
-    MixedPixels mixed(patches, picture);
-    ASSERT_FALSE(mixed.empty());
-    mixed.evaluate_residual();
+    WedgeRows rows;
+    const MixedPixels mixed(patches, picture, rows);
+    rows.finish(patches.wedges.size());
+    ASSERT_FALSE(mixed.pixels().empty());
+    rows.evaluate_residual();
     for (int w = 0; w < static_cast<int>(patches.wedges.size()); ++w) {
       WedgeUnknowns sum = WedgeUnknowns::Zero();
-      mixed.gather(w, sum);
-      EXPECT_LT(sum.col(0).cwiseAbs().maxCoeff(), 1e-3 * std::max(1.0, mixed.block(w)(0, 0)));
+      rows.gather(w, sum);
+      EXPECT_LT(sum.col(0).cwiseAbs().maxCoeff(), 1e-3 * std::max(1.0, rows.block(w)(0, 0)));
     }
   }
 }
 
 TEST(MixedPixels, AreNoneWithoutTearsInAPictureThatIsFilled) {
   const PatchMesh patches = random_patches(5, 4, 50, 40, 2);
-  const MixedPixels mixed(patches, Raster(50, 40, 3));
-  EXPECT_TRUE(mixed.empty());
+  WedgeRows rows;
+  const MixedPixels mixed(patches, Raster(50, 40, 3), rows);
+  EXPECT_EQ(rows.size(), 0);
+  EXPECT_TRUE(mixed.pixels().empty());
   EXPECT_FALSE(mixed.contains(20 * 50 + 20));
 }
 

@@ -102,7 +102,7 @@ TEST(Preset, BudgetsFollowTheSize) {
   EXPECT_EQ(preset_quads(preset_named("icon"), 256, 256), 3000);
   for (const Preset& preset : presets()) {
     EXPECT_EQ(preset_quads(preset, 1, 1), 1) << preset.name;
-    EXPECT_EQ(preset_quads(preset, 1, 16), 4) << preset.name;
+    EXPECT_EQ(preset_quads(preset, 1, 10), 4) << preset.name;
     EXPECT_EQ(preset_quads(preset, 100, 100), preset.min_quads) << preset.name;
     EXPECT_EQ(preset_quads(preset, 100'000, 100'000), preset.max_quads) << preset.name;
   }

@@ -31,13 +31,6 @@ constexpr double kLongestStep = 0.35;  // of the shortest edge at a vertex
 constexpr int kItemCost = 64;          // of a quad or an edge, in the pixels of parallel_rows
 constexpr double kLongCell = 3;        // cells count as at most this many edge lengths wide
 
-double area(const QuadMesh& mesh, int q) {
-  const auto& c = mesh.quads()[q];
-  const Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
-  const Vector2d e = mesh.vertices[c[3]] - mesh.vertices[c[1]];
-  return 0.5 * (d.x() * e.y() - d.y() * e.x());
-}
-
 /// The part of row `y` that lies in a convex quad.
 std::array<double, 2> row_span(const std::array<Vector2d, 4>& corners, double y) {
   double left = 1e300, right = -1e300;
@@ -107,8 +100,8 @@ Pull edge_pull(const QuadMesh& mesh, int e, const std::vector<Colour>& means,
   const int inner = QuadMesh::quad_of(h), outer = QuadMesh::quad_of(twin);
   const double contrast2 = (means[inner] - means[outer]).squaredNorm();
   const double weight = contrast2 / (contrast2 + kNoise * kNoise);
-  const double width_in = std::min(area(mesh, inner) / length, kLongCell * length);
-  const double width_out = std::min(area(mesh, outer) / length, kLongCell * length);
+  const double width_in = std::min(quad_area(mesh, inner) / length, kLongCell * length);
+  const double width_out = std::min(quad_area(mesh, outer) / length, kLongCell * length);
   const double step = std::max(kFinestStep, kReach * std::max(width_in, width_out) / kStepsPerSide);
   const int samples =
       std::clamp(static_cast<int>(std::ceil(length / kSampleSpacing)), 2, kMaxSamples);

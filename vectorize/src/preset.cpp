@@ -13,7 +13,9 @@ constexpr double kIconTransparency = 0.05;
 constexpr double kGraphicFlatness = 0.4;
 constexpr int kGraphicColors = 128;
 constexpr double kGraphicSharpness = 0.8, kGraphicChainShare = 0.6;
-constexpr double kLeastPixelsPerQuad = 4;
+// Edges are drawn sharper where the colours beside them bend less.
+constexpr double kGraphicSmoothness = 0.25;
+constexpr double kLeastPixelsPerQuad = 2.5;
 
 double rounded_to_two_digits(double value) {
   const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(value)) - 1));
@@ -29,8 +31,8 @@ const std::vector<Preset>& presets() {
       {"draft", "a quick look", 200, 100, 10'000},
       {"photo", "photographs and soft shading", 51.5, 500, 50'000},
       {"fine", "more detail, larger files", 20, 1'000, 200'000},
-      {"graphic", "drawings with flat colours", 29, 1'000, 30'000, true},
-      {"icon", "small pictures with transparency", 22, 500, 8'000, true},
+      {"graphic", "drawings with flat colours", 29, 3'000, 30'000, true},
+      {"icon", "small pictures with transparency", 22, 1'500, 8'000, true},
   };
   return all;
 }
@@ -72,6 +74,7 @@ void apply(const Preset& preset, const Raster& picture, VectorizeOptions& option
   options.chains.sharpness = kGraphicSharpness;
   options.chain_share = kGraphicChainShare;
   options.least_chain_gain = 0;
+  options.fit.smoothness = kGraphicSmoothness;
 }
 
 }  // namespace quadrille

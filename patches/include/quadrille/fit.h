@@ -19,6 +19,11 @@ struct FitOptions {
   /// pixel of a patch adds this weight times the mean squared distance of its colours from that
   /// solution; more where tears leave the colours of pixels' parts open. Positive.
   double regularization = 1e-4;
+  /// Length in pixels, not negative, at whose fourth power the squared second derivatives of the
+  /// colours count beside the squared error. It says what the colours do between the pixels of
+  /// patches that have few of them, which shows when the picture is enlarged: enough that they do
+  /// not ring, little enough that they still pass through the pixels.
+  double smoothness = 0.2;
   /// The conjugate gradients start at the Bessel solution and stop when its residual has fallen by
   /// this factor; in (0, 1).
   double tolerance = 1e-4;
@@ -31,15 +36,15 @@ struct FitReport {
 };
 
 /// Estimates the colours of every wedge so that the patches reproduce the picture: hermite and
-/// bessel_ls minimise the squared difference at the pixel centres, alpha premultiplied, clamping
-/// left to the renderer. Where a tear, or the border of the mesh inside the picture, crosses a
-/// pixel, the mixture of patches that render() draws there is compared instead, beyond the border
-/// as if the picture's colours were seen through the mesh. Geometry is taken as it is. The
-/// picture's rectangle must contain the mesh; pixel (i, j) has its centre at (i + 0.5, j + 0.5). A
-/// picture without alpha gives opaque patches: alpha exactly 1, its derivatives exactly 0. Linear
-/// pictures are reproduced by all methods. The same bits for any thread count. Throws
-/// Error{invalid_argument} for a mesh without patches, an empty picture or options outside their
-/// ranges.
+/// bessel_ls minimise the squared difference at the pixel centres and the options' other terms,
+/// alpha premultiplied, clamping left to the renderer. Where a tear, or the border of the mesh
+/// inside the picture, crosses a pixel, the mixture of patches that render() draws there is
+/// compared instead, beyond the border as if the picture's colours were seen through the mesh.
+/// Geometry is taken as it is. The picture's rectangle must contain the mesh; pixel (i, j) has its
+/// centre at (i + 0.5, j + 0.5). A picture without alpha gives opaque patches: alpha exactly 1, its
+/// derivatives exactly 0. Linear pictures are reproduced by all methods. The same bits for any
+/// thread count. Throws Error{invalid_argument} for a mesh without patches, an empty picture or
+/// options outside their ranges.
 FitReport fit_colors(PatchMesh& patches, const Raster& picture, const FitOptions& options = {},
                      const RunContext& context = {});
 

@@ -88,6 +88,9 @@ int count_irregular_vertices(const QuadMesh& mesh);
 /// Jacobian of mesh generation. 1 for a rectangle; 0 when an edge has no length.
 double scaled_jacobian(const QuadMesh& mesh, int q);
 
+/// Area of the straight-edged quad, square pixels; positive unless it is folded.
+double quad_area(const QuadMesh& mesh, int q);
+
 struct MeshViolation {
   std::string what;  ///< "border", "area", "corner", "euler", "not finite"
   int element = -1;  ///< the quad or vertex concerned, -1 for the whole mesh

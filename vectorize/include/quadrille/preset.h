@@ -32,10 +32,11 @@ const Preset& choose_preset(const Content& content);
 const Preset& choose_preset(const Raster& picture);
 
 /// The budget for a picture of so many pixels, rounded to two significant digits: 1 quad per
-/// pixels_per_quad pixels, within the preset's bounds, and at most 1 per 4 pixels.
+/// pixels_per_quad pixels, within the preset's bounds, and at most 2 per 5 pixels.
 int preset_quads(const Preset& preset, int width, int height);
 
-/// Sets what the preset decides: the number of quads and the tears. Everything else stays as it is.
+/// Sets what the preset decides: the number of quads, and for strong tears where they are and
+/// the fit's smoothness. Everything else stays as it is.
 void apply(const Preset& preset, const Raster& picture, VectorizeOptions& options);
 
 }  // namespace quadrille
