@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace quadrille {
 
@@ -26,6 +27,14 @@ bool VectorImage::opaque() const {
     area += 0.5 * (d.x() * e.y() - d.y() * e.x());
   }
   return std::abs(area - width * height) <= 1e-9 * width * height;
+}
+
+VectorImage single_layer(PatchMesh patches, double width, double height) {
+  VectorImage image;
+  image.width = width;
+  image.height = height;
+  image.layers.emplace_back().patches = std::move(patches);
+  return image;
 }
 
 }  // namespace quadrille
