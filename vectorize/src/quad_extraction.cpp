@@ -13,6 +13,7 @@
 #include "divide_faces.h"
 #include "face_cleanup.h"
 #include "feature_bending.h"
+#include "feature_release.h"
 #include "lattice_graph.h"
 #include "outline_bending.h"
 #include "shape_smoothing.h"
