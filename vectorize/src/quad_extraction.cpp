@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "chain_curve.h"
 #include "chain_sampling.h"
 #include "convex_faces.h"
 #include "divide_faces.h"
