@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 
 #include "fit/fit_figures.h"
 #include "fit/size_growth.h"
@@ -12,7 +11,7 @@
 #include "fit/upscale.h"
 #include "own_process.h"
 #include "pictures.h"
-#include "quadrille/error.h"
+#include "program.h"
 #include "quadrille/image_file.h"
 #include "quadrille/preset.h"
 
@@ -82,12 +81,6 @@ std::vector<TableRow> run_folder(const fs::path& folder, const std::vector<FitRu
   return rows;
 }
 
-Json as_json(const std::vector<TableRow>& rows) {
-  Json entries = Json::object();
-  for (const TableRow& row : rows) entries[row.name] = row.json;
-  return entries;
-}
-
 bool run(const Options& options) {
   bool good = true;
   Json results;
@@ -105,12 +98,7 @@ bool run(const Options& options) {
     results["growth"] = as_json(rows);
     for (const TableRow& row : rows) good &= !row.json.contains("error");
   }
-  if (!options.json_file.empty()) {
-    std::ofstream stream(options.json_file);
-    stream << results.dump(1) << '\n';
-    good &= static_cast<bool>(stream.flush());
-  }
-  return good;
+  return write_json(results, options.json_file) && good;
 }
 
 }  // namespace
@@ -143,10 +131,5 @@ int main(int argc, char** argv) {
   CLI11_PARSE(parser, argc, argv);
   options.figures.jpeg = !options.no_jpeg;
   options.upscale.threads = options.figures.threads;
-  try {
-    return run(options) ? 0 : 1;
-  } catch (const quadrille::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
+  return exit_code([&] { return run(options); });
 }

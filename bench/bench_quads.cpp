@@ -3,11 +3,10 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 
 #include "own_process.h"
 #include "pictures.h"
-#include "quadrille/error.h"
+#include "program.h"
 #include "quads/baseline.h"
 #include "quads/field_phases.h"
 #include "quads/growth.h"
@@ -100,12 +99,6 @@ Json print_growth_tables(int threads, bool& good) {
   return all;
 }
 
-Json as_json(const std::vector<TableRow>& rows) {
-  Json pictures = Json::object();
-  for (const TableRow& row : rows) pictures[row.name] = row.json;
-  return pictures;
-}
-
 bool run(const Options& options) {
   bool good = true;
   Json results;
@@ -125,12 +118,7 @@ bool run(const Options& options) {
   if (!options.baseline_file.empty()) {
     write_baseline(all, options.baseline_file, options.picture.quads);
   }
-  if (!options.json_file.empty()) {
-    std::ofstream stream(options.json_file);
-    stream << results.dump(1) << '\n';
-    good &= static_cast<bool>(stream.flush());
-  }
-  return good;
+  return write_json(results, options.json_file) && good;
 }
 
 }  // namespace
@@ -157,10 +145,5 @@ int main(int argc, char** argv) {
   options.recall = !no_recall;
   options.growth = !no_growth;
   options.quality = !no_quality;
-  try {
-    return run(options) ? 0 : 1;
-  } catch (const quadrille::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
+  return exit_code([&] { return run(options); });
 }

@@ -79,6 +79,12 @@ std::vector<Cells> lines_of(const std::vector<Column>& columns, const std::vecto
 
 }  // namespace
 
+Json as_json(const std::vector<TableRow>& rows) {
+  Json entries = Json::object();
+  for (const TableRow& row : rows) entries[row.name] = row.json;
+  return entries;
+}
+
 std::vector<double> values(const std::vector<TableRow>& rows, const Column& column) {
   std::vector<double> numbers;
   for (const TableRow& row : rows) {

@@ -12,6 +12,9 @@ struct TableRow {
   nlohmann::ordered_json json;
 };
 
+/// The rows' figures by their names.
+nlohmann::ordered_json as_json(const std::vector<TableRow>& rows);
+
 /// Which end of a column's values is the bad one.
 enum class Worst { none, lowest, highest };
 

@@ -13,19 +13,11 @@
 
 namespace {
 
-/// A picture of one layer that shows the patches.
-quadrille::VectorImage image_of(const quadrille::Raster& picture, quadrille::PatchMesh patches) {
-  quadrille::VectorImage image;
-  image.width = picture.width;
-  image.height = picture.height;
-  image.layers.emplace_back().patches = std::move(patches);
-  return image;
-}
-
 /// Draws the patches, prints how far they are from the picture, and returns the drawing.
 quadrille::Raster judge(const char* step, const quadrille::Raster& picture,
                         const quadrille::PatchMesh& patches) {
-  const quadrille::Raster drawn = quadrille::render(image_of(picture, patches));
+  const quadrille::Raster drawn =
+      quadrille::render(quadrille::single_layer(patches, picture.width, picture.height));
   const quadrille::ImageDifference difference = quadrille::compare(picture, drawn);
   std::printf("%-10s %5d quads, MAE %5.2f, PSNR %5.2f dB\n", step, patches.patch_count(),
               difference.mae, difference.psnr);

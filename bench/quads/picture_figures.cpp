@@ -25,10 +25,8 @@ Json shape_figures(const QuadMesh& mesh, const Raster& picture) {
 
 /// How well patches on the mesh reproduce the picture.
 Json fit_figures(QuadMesh mesh, const Raster& picture, const RunContext& context) {
-  VectorImage image;
-  image.width = picture.width;
-  image.height = picture.height;
-  image.layers.emplace_back().patches = fit_patches(std::move(mesh), picture, {}, context);
+  const VectorImage image = single_layer(fit_patches(std::move(mesh), picture, {}, context),
+                                         picture.width, picture.height);
   const ImageDifference difference = compare(picture, render(image, {}, context));
   return {{"quads", image.patch_count()}, {"mae", difference.mae}, {"psnr", difference.psnr}};
 }

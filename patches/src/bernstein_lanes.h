@@ -17,6 +17,22 @@ QUADRILLE_INLINE float sum_of(const Lanes& x) {
   return quarters[0] + quarters[1];
 }
 
+/// sums[N j + i] += the sum over all lanes of values v_j u_i.
+template <int N>
+QUADRILLE_INLINE void add_products(int groups, const Lanes* values, const Lanes (*u)[N],
+                                   const Lanes (*v)[N], double* sums) {
+  for (int j = 0; j < N; ++j) {
+    Lanes sum[N] = {};
+    for (int g = 0; g < groups; ++g) {
+      const Lanes row = values[g] * v[g][j];
+#pragma GCC unroll 8
+      for (int i = 0; i < N; ++i) sum[i] += row * u[g][i];
+    }
+#pragma GCC unroll 8
+    for (int i = 0; i < N; ++i) sums[N * j + i] += sum_of(sum[i]);
+  }
+}
+
 /// The cubic Bernstein polynomials at t.
 QUADRILLE_INLINE void cubic_bernstein(const Lanes& t, Lanes (&b)[4]) {
   const Lanes s = 1.0f - t, s2 = s * s, t2 = t * t;

@@ -23,6 +23,18 @@ inline constexpr CornerPlace kCornerPlaces[4] = {{0, 1, 4, kThird, kThird},
 /// Products of the binomial coefficients 1 3 3 1: of a corner, beside it, and diagonally.
 inline constexpr float kBeside = 3, kDiagonal = 9;
 
+/// Exchanges rows and columns of both halves, blocks of 4 x 4.
+QUADRILLE_INLINE void transpose_blocks(const Lanes (&in)[4], Lanes (&out)[4]) {
+  const Lanes low01 = __builtin_shufflevector(in[0], in[1], 0, 8, 1, 9, 4, 12, 5, 13);
+  const Lanes high01 = __builtin_shufflevector(in[0], in[1], 2, 10, 3, 11, 6, 14, 7, 15);
+  const Lanes low23 = __builtin_shufflevector(in[2], in[3], 0, 8, 1, 9, 4, 12, 5, 13);
+  const Lanes high23 = __builtin_shufflevector(in[2], in[3], 2, 10, 3, 11, 6, 14, 7, 15);
+  out[0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
+  out[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
+  out[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
+  out[3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
 /// Loads four channels of one unknown of kLaneCount wedges.
 QUADRILLE_INLINE void gather(const WedgeUnknowns* x, const int* wedges, int unknown,
                              Lanes (&channel)[4]) {
@@ -37,27 +49,27 @@ QUADRILLE_INLINE void gather(const WedgeUnknowns* x, const int* wedges, int unkn
   for (int p = 0; p < 4; ++p) {
     row[p] = __builtin_shufflevector(part[p], part[p + 4], 0, 1, 2, 3, 4, 5, 6, 7);
   }
-  const Lanes low01 = __builtin_shufflevector(row[0], row[1], 0, 8, 1, 9, 4, 12, 5, 13);
-  const Lanes high01 = __builtin_shufflevector(row[0], row[1], 2, 10, 3, 11, 6, 14, 7, 15);
-  const Lanes low23 = __builtin_shufflevector(row[2], row[3], 0, 8, 1, 9, 4, 12, 5, 13);
-  const Lanes high23 = __builtin_shufflevector(row[2], row[3], 2, 10, 3, 11, 6, 14, 7, 15);
-  channel[0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
-  channel[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
-  channel[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
-  channel[3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
+  transpose_blocks(row, channel);
+}
+
+/// Loads all unknowns of the corners of kLaneCount patches, channel by channel.
+QUADRILLE_INLINE void gather_corners(const ElementGroup& group, const WedgeUnknowns* x,
+                                     CornerLanes (&corners)[4]) {
+  for (int k = 0; k < 4; ++k) {
+    for (int unknown = 0; unknown < 4; ++unknown) {
+      Lanes channel[4];
+      gather(x, group.wedges[k], unknown, channel);
+#pragma GCC unroll 4
+      for (int c = 0; c < 4; ++c) corners[c][k][unknown] = channel[c];
+    }
+  }
 }
 
 /// The way back: four channels of one unknown of one corner of kLaneCount patches.
 QUADRILLE_INLINE void scatter(const Lanes (&channel)[4], int corner, int unknown,
                               CornerUnknowns* result) {
-  const Lanes low01 = __builtin_shufflevector(channel[0], channel[1], 0, 8, 1, 9, 4, 12, 5, 13);
-  const Lanes high01 = __builtin_shufflevector(channel[0], channel[1], 2, 10, 3, 11, 6, 14, 7, 15);
-  const Lanes low23 = __builtin_shufflevector(channel[2], channel[3], 0, 8, 1, 9, 4, 12, 5, 13);
-  const Lanes high23 = __builtin_shufflevector(channel[2], channel[3], 2, 10, 3, 11, 6, 14, 7, 15);
-  const Lanes row[4] = {__builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13),
-                        __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15),
-                        __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13),
-                        __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15)};
+  Lanes row[4];
+  transpose_blocks(channel, row);
 #pragma GCC unroll 4
   for (int p = 0; p < 4; ++p) {
     const auto low = __builtin_shufflevector(row[p], row[p], 0, 1, 2, 3);
@@ -67,6 +79,24 @@ QUADRILLE_INLINE void scatter(const Lanes (&channel)[4], int corner, int unknown
   }
 }
 
+/// Stores the unknowns of the first `channels` channels, zeros for the others.
+QUADRILLE_INLINE void scatter_corners(const CornerLanes (&corners)[4], int channels,
+                                      CornerUnknowns* result) {
+  for (int k = 0; k < 4; ++k) {
+    for (int unknown = 0; unknown < 4; ++unknown) {
+      Lanes channel[4] = {};
+      for (int c = 0; c < channels; ++c) channel[c] = corners[c][k][unknown];
+      scatter(channel, k, unknown, result);
+    }
+  }
+}
+
+/// The numbers of a corner's map, see ElementGroup::set().
+QUADRILLE_INLINE void load_map(const ElementGroup& group, int corner, Lanes (&m)[7]) {
+#pragma GCC unroll 7
+  for (int i = 0; i < 7; ++i) load(group.corners[corner][i], m[i]);
+}
+
 /// See colors_of().
 QUADRILLE_INLINE void to_control(const ElementGroup& group, const CornerLanes& x,
                                  ControlLanes& control) {
@@ -74,8 +104,7 @@ QUADRILLE_INLINE void to_control(const ElementGroup& group, const CornerLanes& x
   for (int k = 0; k < 4; ++k) {
     constexpr auto& places = kCornerPlaces;
     Lanes m[7];
-#pragma GCC unroll 7
-    for (int i = 0; i < 7; ++i) load(group.corners[k][i], m[i]);
+    load_map(group, k, m);
     const Lanes &value = x[k][0], &dx = x[k][1], &dy = x[k][2], &twist = x[k][3];
     const Lanes along_u = value + (dx * m[0] + dy * m[1]) * places[k].sign_u;
     const Lanes step_v = (dx * m[2] + dy * m[3]) * places[k].sign_v;
@@ -96,8 +125,7 @@ QUADRILLE_INLINE void from_control(const ElementGroup& group, const ControlLanes
   for (int k = 0; k < 4; ++k) {
     constexpr auto& places = kCornerPlaces;
     Lanes m[7];
-#pragma GCC unroll 7
-    for (int i = 0; i < 7; ++i) load(group.corners[k][i], m[i]);
+    load_map(group, k, m);
     const int at = places[k].first;
     const Lanes along_u = control[at + places[k].step_u] * kBeside;
     const Lanes along_v = control[at + places[k].step_v] * kBeside;

@@ -3,6 +3,7 @@
 #include "corner_lanes.h"
 
 namespace quadrille {
+
 void ElementGroup::set(int lane, const std::array<CornerMap, 4>& maps, const double (&sums)[49],
                        const int* wedge_of_corner) {
   for (int i = 0; i < 49; ++i) moments[i][lane] = static_cast<float>(sums[i]);
@@ -19,27 +20,14 @@ QUADRILLE_MULTIVERSION
 void multiply(const ElementGroup& group, int channels, const WedgeUnknowns* x,
               CornerUnknowns* result) {
   CornerLanes local[4];
-  for (int k = 0; k < 4; ++k) {
-    for (int unknown = 0; unknown < 4; ++unknown) {
-      Lanes channel[4];
-      gather(x, group.wedges[k], unknown, channel);
-#pragma GCC unroll 4
-      for (int c = 0; c < 4; ++c) local[c][k][unknown] = channel[c];
-    }
-  }
+  gather_corners(group, x, local);
   for (int c = 0; c < channels; ++c) {
     ControlLanes in, out;
     to_control(group, local[c], in);
     multiply_moments(group.moments, in, out);
     from_control(group, out, local[c]);
   }
-  for (int k = 0; k < 4; ++k) {
-    for (int unknown = 0; unknown < 4; ++unknown) {
-      Lanes channel[4] = {};
-      for (int c = 0; c < channels; ++c) channel[c] = local[c][k][unknown];
-      scatter(channel, k, unknown, result);
-    }
-  }
+  scatter_corners(local, channels, result);
 }
 
 QUADRILLE_MULTIVERSION

@@ -2,6 +2,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -15,14 +16,22 @@
 #include "quadrille/patch_geometry.h"
 
 namespace quadrille {
-void check_fit(const PatchMesh& patches, const Raster& picture, const FitOptions& options) {
+namespace {
+
+// Of fits that are only compared with each other or made again.
+constexpr double kDraftTolerance = 1e-2;
+
+}  // namespace
+
+FitOptions draft_options(FitOptions options) {
+  options.tolerance = std::max(options.tolerance, kDraftTolerance);
+  return options;
+}
+
+void check_options(const FitOptions& options) {
   const auto reject = [](const std::string& message) {
     throw Error(ErrorCode::invalid_argument, message);
   };
-  if (patches.patch_count() == 0) {
-    reject("colours cannot be fitted to a mesh without patches; pass at least one quad");
-  }
-  check_raster(picture);
   if (!(options.regularization > 0) || !std::isfinite(options.regularization)) {
     reject("the fit's regularization is " + std::to_string(options.regularization) +
            "; use a small positive number such as 1e-4");
@@ -35,6 +44,15 @@ void check_fit(const PatchMesh& patches, const Raster& picture, const FitOptions
     reject("the fit's tolerance is " + std::to_string(options.tolerance) +
            "; use a number between 0 and 1 such as 1e-4");
   }
+}
+
+void check_fit(const PatchMesh& patches, const Raster& picture, const FitOptions& options) {
+  if (patches.patch_count() == 0) {
+    throw Error(ErrorCode::invalid_argument,
+                "colours cannot be fitted to a mesh without patches; pass at least one quad");
+  }
+  check_raster(picture);
+  check_options(options);
 }
 
 namespace {

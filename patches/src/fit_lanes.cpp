@@ -66,16 +66,7 @@ void add_batch(const ControlColors& model, int channels, const FitBatch& batch, 
     for (int p = 0; p < 7; ++p) sums.moments[7 * q + p] += sum_of(sum[p]);
   }
   for (int c = 0; c < channels; ++c) {
-    for (int j = 0; j < 4; ++j) {
-      Lanes sum[4] = {};
-      for (int g = 0; g < groups; ++g) {
-        const Lanes row = residual[c][g] * cubic_v[g][j];
-#pragma GCC unroll 4
-        for (int i = 0; i < 4; ++i) sum[i] += row * cubic_u[g][i];
-      }
-#pragma GCC unroll 4
-      for (int i = 0; i < 4; ++i) sums.residual[c][4 * j + i] += sum_of(sum[i]);
-    }
+    add_products(groups, residual[c], cubic_u, cubic_v, sums.residual[c]);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "quadrille/patch_geometry.h"
+#include "quadrille/remove_duplicates.h"
 
 namespace quadrille {
 namespace {
@@ -126,8 +127,7 @@ FoldGuardReport guard_folds(PatchMesh& patches) {
     for (const int q : suspects) {
       for (int k = 0; k < 4; ++k) shrunk.push_back(mesh.edge(4 * q + k));
     }
-    std::sort(shrunk.begin(), shrunk.end());
-    shrunk.erase(std::unique(shrunk.begin(), shrunk.end()), shrunk.end());
+    remove_duplicates(shrunk);
     std::erase_if(shrunk, [&](int e) { return level[e] == kLastLevel; });
     if (shrunk.empty()) break;
     for (const int e : shrunk) {
@@ -142,8 +142,7 @@ FoldGuardReport guard_folds(PatchMesh& patches) {
       if (mesh.twin(h) >= 0) changed.push_back(QuadMesh::quad_of(mesh.twin(h)));
     }
     changed.insert(changed.end(), suspects.begin(), suspects.end());
-    std::sort(changed.begin(), changed.end());
-    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    remove_duplicates(changed);
     std::erase_if(changed, [&](int q) { return certify_fold_free(patch_geometry(patches, q)); });
     suspects = std::move(changed);
   }

@@ -55,29 +55,11 @@ void add_batch(int channels, const MotionBatch& batch, MotionSums& sums) {
   }
   for (int c = 0; c < channels; ++c) {
     for (int d = 0; d < 2; ++d) {
-      for (int j = 0; j < 5; ++j) {
-        Lanes sum[5] = {};
-        for (int g = 0; g < groups; ++g) {
-          const Lanes row = gradient[c][d][g] * quartic_v[g][j];
-#pragma GCC unroll 5
-          for (int i = 0; i < 5; ++i) sum[i] += row * quartic_u[g][i];
-        }
-#pragma GCC unroll 5
-        for (int i = 0; i < 5; ++i) sums.mixed[c][d][5 * j + i] += sum_of(sum[i]);
-      }
+      add_products(groups, gradient[c][d], quartic_u, quartic_v, sums.mixed[c][d]);
     }
   }
   for (int s = 0; s < 3; ++s) {
-    for (int j = 0; j < 3; ++j) {
-      Lanes sum[3] = {};
-      for (int g = 0; g < groups; ++g) {
-        const Lanes row = product[s][g] * quadratic_v[g][j];
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) sum[i] += row * quadratic_u[g][i];
-      }
-#pragma GCC unroll 3
-      for (int i = 0; i < 3; ++i) sums.stiffness[s][3 * j + i] += sum_of(sum[i]);
-    }
+    add_products(groups, product[s], quadratic_u, quadratic_v, sums.stiffness[s]);
   }
   for (int k = 0; k < 4; ++k) {
     for (int d = 0; d < 2; ++d) {
@@ -96,13 +78,8 @@ void multiply(const ElementGroup& group, const MotionGroup& motion, int channels
               CornerMoves* moves) {
   CornerLanes local[4];
   float given[8][kLaneCount];
+  gather_corners(group, x, local);
   for (int k = 0; k < 4; ++k) {
-    for (int unknown = 0; unknown < 4; ++unknown) {
-      Lanes channel[4];
-      gather(x, group.wedges[k], unknown, channel);
-#pragma GCC unroll 4
-      for (int c = 0; c < 4; ++c) local[c][k][unknown] = channel[c];
-    }
     for (int lane = 0; lane < kLaneCount; ++lane) {
       const Eigen::Vector2f& move = p[motion.vertices[k][lane]];
       given[2 * k][lane] = move.x();
@@ -141,13 +118,7 @@ void multiply(const ElementGroup& group, const MotionGroup& motion, int channels
     }
     from_control(group, out, local[c]);
   }
-  for (int k = 0; k < 4; ++k) {
-    for (int unknown = 0; unknown < 4; ++unknown) {
-      Lanes channel[4] = {};
-      for (int c = 0; c < channels; ++c) channel[c] = local[c][k][unknown];
-      scatter(channel, k, unknown, colors);
-    }
-  }
+  scatter_corners(local, channels, colors);
   for (int a = 0; a < 8; ++a) {
     for (int lane = 0; lane < kLaneCount; ++lane) moves[lane][a / 2][a % 2] = result[a][lane];
   }

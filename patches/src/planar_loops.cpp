@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quadrille/remove_duplicates.h"
+
 namespace quadrille {
 namespace {
 
@@ -137,8 +139,7 @@ std::vector<std::array<LoopSide, 2>> conflicts(const std::vector<Loop>& loops) {
       }
     }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  remove_duplicates(found);
   return found;
 }
 

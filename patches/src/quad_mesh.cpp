@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "quadrille/error.h"
+#include "quadrille/remove_duplicates.h"
 
 namespace quadrille {
 namespace {
@@ -85,6 +86,24 @@ void QuadMesh::order_fans() {
       h = twin_[prev(h)];
     }
   }
+}
+
+std::vector<int> quads_at(const QuadMesh& mesh, std::span<const int> vertices) {
+  std::vector<int> found;
+  for (const int v : vertices) {
+    for (const int h : mesh.fan(v)) found.push_back(QuadMesh::quad_of(h));
+  }
+  remove_duplicates(found);
+  return found;
+}
+
+std::vector<int> corners_of(const QuadMesh& mesh, std::span<const int> quads) {
+  std::vector<int> found;
+  for (const int q : quads) {
+    found.insert(found.end(), mesh.quads()[q].begin(), mesh.quads()[q].end());
+  }
+  remove_duplicates(found);
+  return found;
 }
 
 int count_irregular_vertices(const QuadMesh& mesh) {

@@ -10,6 +10,7 @@
 #include "picture_sampling.h"
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
+#include "quadrille/remove_duplicates.h"
 #include "quadrille/render.h"
 
 namespace quadrille {
@@ -22,28 +23,14 @@ constexpr int kReach = 4;
 /// A chain whose drop per edge is below this share of a neighbour's waits until that one is torn.
 constexpr double kStrongShare = 0.25;
 constexpr int kRounds = 4;
-/// Of fits that are only compared with each other.
-constexpr double kDraftTolerance = 1e-2;
 
-void check(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains,
-           const TearOptions& options) {
-  const auto reject = [](const std::string& message) {
-    throw Error(ErrorCode::invalid_argument, message);
-  };
-  if (!(options.relative_drop >= 0 && options.relative_drop <= 1)) {
-    reject("the relative drop asked of a tear is " + std::to_string(options.relative_drop) +
-           "; use a share between 0 and 1 such as 0.1");
-  }
-  if (!(options.price >= 0) || !std::isfinite(options.price)) {
-    reject("the price of a tear's numbers is " + std::to_string(options.price) +
-           "; use a number from 0 up such as 6");
-  }
+void check(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains) {
   for (const std::vector<int>& chain : chains) {
     for (const int e : chain) {
-      if (e < 0 || e >= mesh.edge_count()) {
-        reject("a chain to tear names edge " + std::to_string(e) + " of " +
-               std::to_string(mesh.edge_count()) + "; give edges of the mesh");
-      }
+      if (e >= 0 && e < mesh.edge_count()) continue;
+      throw Error(ErrorCode::invalid_argument, "a chain to tear names edge " + std::to_string(e) +
+                                                   " of " + std::to_string(mesh.edge_count()) +
+                                                   "; give edges of the mesh");
     }
   }
 }
@@ -63,11 +50,7 @@ QuadMesh with_chains(const QuadMesh& mesh, const std::vector<std::vector<int>>& 
 /// Squared difference per pixel between the picture and the patches drawn.
 std::vector<double> squared_errors(const PatchMesh& patches, const Raster& picture,
                                    const RunContext& context) {
-  VectorImage image;
-  image.width = picture.width;
-  image.height = picture.height;
-  image.layers.emplace_back().patches = patches;
-  const Raster drawn = render(image, {}, context);
+  const Raster drawn = render(single_layer(patches, picture.width, picture.height), {}, context);
   std::vector<double> errors;
   errors.reserve(static_cast<std::size_t>(picture.width) * picture.height);
   for (int y = 0; y < picture.height; ++y) {
@@ -127,21 +110,14 @@ class Neighbourhoods {
         vertices.push_back(mesh.origin(h));
         vertices.push_back(mesh.tip(h));
       }
-      make_unique(vertices);
+      remove_duplicates(vertices);
     }
   }
 
   const std::vector<int>& vertices(std::size_t chain) const { return vertices_[chain]; }
 
-  /// The quads that touch one of the vertices, ascending.
-  std::vector<int> quads(const std::vector<int>& vertices) const {
-    std::vector<int> found;
-    for (const int v : vertices) {
-      for (const int h : mesh_.fan(v)) found.push_back(QuadMesh::quad_of(h));
-    }
-    make_unique(found);
-    return found;
-  }
+  /// The quads that touch the chain, ascending.
+  std::vector<int> quads(std::size_t chain) const { return quads_at(mesh_, vertices_[chain]); }
 
   /// Per chain the others within kReach quads.
   std::vector<std::vector<int>> neighbours() const {
@@ -153,17 +129,12 @@ class Neighbourhoods {
     for (std::size_t c = 0; c < vertices_.size(); ++c) {
       std::vector<int> reached = vertices_[c];
       for (int ring = 0; ring < kReach; ++ring) {
-        const std::vector<int> beside = quads(reached);
-        reached.clear();
-        for (const int q : beside) {
-          reached.insert(reached.end(), mesh_.quads()[q].begin(), mesh_.quads()[q].end());
-        }
-        make_unique(reached);
+        reached = corners_of(mesh_, quads_at(mesh_, reached));
       }
       for (const int v : reached) {
         found[c].insert(found[c].end(), chains_at[v].begin(), chains_at[v].end());
       }
-      make_unique(found[c]);
+      remove_duplicates(found[c]);
       std::erase(found[c], static_cast<int>(c));
     }
     return found;
@@ -172,11 +143,6 @@ class Neighbourhoods {
  private:
   const QuadMesh& mesh_;
   std::vector<std::vector<int>> vertices_;
-
-  static void make_unique(std::vector<int>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
 };
 
 /// Compares trials chain by chain with the one in which all are torn.
@@ -198,7 +164,7 @@ class Judge {
     for (const int v : near_.vertices(chain)) added_wedges += all_wedges_[v] - wedges_before[v];
     if (added_wedges <= 0) return 0;
     double whole = 0, torn = 0, values = 0;
-    for (const int q : near_.quads(near_.vertices(chain))) {
+    for (const int q : near_.quads(chain)) {
       scan_.scan(q, intersection(scan_.bounds(q), size_), [&](int y, int x_begin, int x_end) {
         for (int x = x_begin; x < x_end; ++x) {
           const std::size_t i = static_cast<std::size_t>(y) * size_.x_end + x;
@@ -227,16 +193,30 @@ class Judge {
 
 }  // namespace
 
+void check_options(const TearOptions& options) {
+  const auto reject = [](const std::string& message) {
+    throw Error(ErrorCode::invalid_argument, message);
+  };
+  if (!(options.relative_drop >= 0 && options.relative_drop <= 1)) {
+    reject("the relative drop asked of a tear is " + std::to_string(options.relative_drop) +
+           "; use a share between 0 and 1 such as 0.1");
+  }
+  if (!(options.price >= 0) || !std::isfinite(options.price)) {
+    reject("the price of a tear's numbers is " + std::to_string(options.price) +
+           "; use a number from 0 up such as 6");
+  }
+}
+
 std::vector<char> judge_tears(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains,
                               const Raster& picture, const FitOptions& fit,
                               const TearOptions& options, const RunContext& context) {
-  check(mesh, chains, options);
+  check_options(options);
+  check(mesh, chains);
   const bool strong = options.mode == TearOptions::Mode::strong;
   std::vector<char> is_torn(chains.size(), strong);
   if (options.mode != TearOptions::Mode::automatic || chains.empty()) return is_torn;
 
-  FitOptions draft = fit;
-  draft.tolerance = std::max(fit.tolerance, kDraftTolerance);
+  const FitOptions draft = draft_options(fit);
   const QuadMesh everything = with_chains(mesh, chains, std::vector<char>(chains.size(), 1));
   const auto tangents = smooth_tangents(everything);
   const Trial all(everything, tangents, picture, draft, context);
@@ -248,8 +228,8 @@ std::vector<char> judge_tears(const QuadMesh& mesh, const std::vector<std::vecto
     const std::vector<int> wedges = wedge_counts(now.patches);
     std::vector<double> drop(chains.size(), 0);  // per edge
     for (std::size_t c = 0; c < chains.size(); ++c) {
-      if (!is_torn[c])
-        drop[c] = judge.drop(c, now, wedges) / std::max(1.0, double(chains[c].size()));
+      const double edges = std::max(1.0, static_cast<double>(chains[c].size()));
+      if (!is_torn[c]) drop[c] = judge.drop(c, now, wedges) / edges;
     }
     bool is_waiting = false;
     for (std::size_t c = 0; c < chains.size(); ++c) {

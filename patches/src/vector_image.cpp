@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace quadrille {
 
@@ -22,6 +23,14 @@ bool VectorImage::opaque() const {
   const QuadMesh& mesh = bottom.patches.mesh;
   for (int q = 0; q < mesh.quad_count(); ++q) area += quad_area(mesh, q);
   return std::abs(area - width * height) <= 1e-9 * width * height;
+}
+
+VectorImage single_layer(PatchMesh patches, double width, double height) {
+  VectorImage image;
+  image.width = width;
+  image.height = height;
+  image.layers.emplace_back().patches = std::move(patches);
+  return image;
 }
 
 }  // namespace quadrille

@@ -5,9 +5,10 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstring>
-#include <functional>
 
+#include "exactly_opaque.h"
 #include "irregular_mesh.h"
+#include "paint.h"
 #include "patch_scan.h"
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
@@ -19,24 +20,13 @@ namespace {
 using Eigen::Vector2d;
 using testing::irregular_mesh;
 using testing::lattice;
+using testing::paint;
+using testing::Painter;
 using testing::Random;
-
-using Painter = std::function<std::array<double, 4>(double x, double y)>;
-
-Raster paint(int width, int height, int channels, const Painter& painter) {
-  Raster picture(width, height, channels);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const auto c = painter(x + 0.5, y + 0.5);
-      for (int k = 0; k < channels; ++k) picture.pixel(x, y)[k] = static_cast<float>(c[k]);
-    }
-  }
-  return picture;
-}
 
 /// Waves with a sharp disc in the middle.
 Raster busy_picture(int width, int height, int channels = 3) {
-  return paint(width, height, channels, [&](double x, double y) -> std::array<double, 4> {
+  return paint(width, height, channels, 1, [&](double x, double y) -> std::array<double, 4> {
     const double r = std::hypot(x - width / 2.0, y - height / 2.0);
     const double disc = r < 0.3 * std::min(width, height) ? 0.4 : 0;
     return {0.5 + 0.3 * std::sin(0.7 * x) * std::cos(0.4 * y), 0.3 + disc,
@@ -110,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Fit, FitByAnyMethod,
 
 TEST_P(FitByAnyMethod, ReproducesLinearColoursOnAnyMesh) {
   const Eigen::Array4d base(0.2, 0.7, 0.5, 1), x(0.004, -0.003, 0.001, 0), y(0.002, -0.001, 0, 0);
-  const Raster picture = paint(60, 44, 3, [&](double px, double py) -> std::array<double, 4> {
+  const Raster picture = paint(60, 44, 3, 1, [&](double px, double py) -> std::array<double, 4> {
     const Eigen::Array4d c = base + x * px + y * py;
     return {c[0], c[1], c[2], 1};
   });
@@ -141,13 +131,7 @@ TEST_P(FitByAnyMethod, ReproducesLinearColoursOnAnyMesh) {
 TEST_P(FitByAnyMethod, KeepsRgbExactlyOpaque) {
   const PatchMesh patches =
       fit_patches(irregular_mesh(4, 4, 32, 32, 1), busy_picture(32, 32), options());
-  EXPECT_TRUE(patches.opaque);
-  for (const Wedge& w : patches.wedges) {
-    EXPECT_EQ(w.value[3], 1);
-    EXPECT_EQ(w.dx[3], 0);
-    EXPECT_EQ(w.dy[3], 0);
-    EXPECT_EQ(w.twist[3], 0);
-  }
+  testing::expect_exactly_opaque(patches);
 }
 
 TEST_P(FitByAnyMethod, KeepsConstantAlpha) {
@@ -189,7 +173,7 @@ TEST_P(FitByAnyMethod, SurvivesPatchesSmallerThanPixels) {
 }
 
 TEST_P(FitByAnyMethod, OnePixelIsOneColour) {
-  const Raster picture = paint(1, 1, 3, [](double, double) {
+  const Raster picture = paint(1, 1, 3, 1, [](double, double) {
     return std::array{0.2, 0.4, 0.9, 1.0};
   });
   const PatchMesh patches = fit_patches(irregular_mesh(6, 6, 1, 1, 4), picture, options());
@@ -218,7 +202,7 @@ TEST_P(FitByAnyMethod, LetsColoursJumpAtTears) {
       mesh.edge_flags[mesh.edge(h)] |= kTearEdge;
     }
   }
-  const Raster picture = paint(40, 40, 3, [](double x, double y) -> std::array<double, 4> {
+  const Raster picture = paint(40, 40, 3, 1, [](double x, double y) -> std::array<double, 4> {
     if (x < 20) return {0.1, 0.01 * y, 0.9, 1};
     return {0.9, 0.5, 0.02 * (x - 20), 1};
   });
@@ -231,7 +215,7 @@ TEST(Fit, HermiteReproducesBicubicPolynomialsOnALattice) {
     const double s = x / 48, t = y / 36;
     return {cubic(s, 0.3) * cubic(t, 0.6), cubic(s, 0.1), s * s * s * t * t * t, 1};
   };
-  const Raster picture = paint(48, 36, 3, painter);
+  const Raster picture = paint(48, 36, 3, 1, painter);
   FitOptions options;
   options.regularization = 1e-9;
   options.tolerance = 1e-7;
@@ -291,7 +275,7 @@ TEST(Fit, BesselLsFindsTheBestColours) {
   for (int i = 0; i < 10; ++i) {
     // The colours that the scheme gives other pictures are the method's space.
     const double a = random.uniform(0.1, 1), b = random.uniform(0.1, 1);
-    const Raster other = paint(48, 36, 3, [&](double x, double y) -> std::array<double, 4> {
+    const Raster other = paint(48, 36, 3, 1, [&](double x, double y) -> std::array<double, 4> {
       return {0.5 + 0.5 * std::sin(a * x), 0.5 + 0.5 * std::cos(b * y), std::sin(a * x * b), 1};
     });
     FitOptions sampled;

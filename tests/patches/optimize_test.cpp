@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
 
+#include "exactly_opaque.h"
 #include "irregular_mesh.h"
+#include "paint.h"
 #include "patch_scan.h"
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
@@ -19,32 +20,19 @@ namespace {
 using Eigen::Vector2d;
 using testing::irregular_mesh;
 using testing::lattice;
+using testing::paint;
 
-using Painter = std::function<std::array<double, 4>(double x, double y)>;
-
-/// 4 x 4 samples per pixel.
-Raster paint(int width, int height, int channels, const Painter& painter) {
-  Raster picture(width, height, channels);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      std::array<double, 4> sum = {};
-      for (int i = 0; i < 16; ++i) {
-        const auto c = painter(x + (i % 4 + 0.5) / 4, y + (i / 4 + 0.5) / 4);
-        for (int k = 0; k < 4; ++k) sum[k] += c[k] / 16;
-      }
-      for (int k = 0; k < channels; ++k) picture.pixel(x, y)[k] = static_cast<float>(sum[k]);
-    }
-  }
-  return picture;
-}
+/// Samples per pixel along a side.
+constexpr int kFineness = 4;
 
 /// A bright disc that fades over `blur` pixels at its rim.
 Raster disc(int width, int height, double blur, int channels = 3) {
-  return paint(width, height, channels, [&](double x, double y) -> std::array<double, 4> {
-    const double r = std::hypot(x - 0.47 * width, y - 0.52 * height) - 0.31 * height;
-    const double inside = 1 / (1 + std::exp(r / blur));
-    return {0.1 + 0.8 * inside, 0.7 - 0.5 * inside, 0.3, 0.2 + 0.7 * inside};
-  });
+  return paint(width, height, channels, kFineness,
+               [&](double x, double y) -> std::array<double, 4> {
+                 const double r = std::hypot(x - 0.47 * width, y - 0.52 * height) - 0.31 * height;
+                 const double inside = 1 / (1 + std::exp(r / blur));
+                 return {0.1 + 0.8 * inside, 0.7 - 0.5 * inside, 0.3, 0.2 + 0.7 * inside};
+               });
 }
 
 double smallest_jacobian(const QuadMesh& mesh) {
@@ -123,7 +111,7 @@ TEST(Optimize, KeepsIrregularMeshesSound) {
 }
 
 TEST(Optimize, GathersVerticesAtABend) {
-  const Raster picture = paint(64, 16, 3, [](double x, double) -> std::array<double, 4> {
+  const Raster picture = paint(64, 16, 3, kFineness, [](double x, double) -> std::array<double, 4> {
     const double roof = std::abs(x - 29.3) / 64;
     return {0.2 + roof, 0.9 - roof, 0.5, 1};
   });
@@ -135,9 +123,10 @@ TEST(Optimize, GathersVerticesAtABend) {
 }
 
 TEST(Optimize, LeavesLinearPicturesAtNoError) {
-  const Raster picture = paint(60, 44, 3, [](double x, double y) -> std::array<double, 4> {
-    return {0.2 + 0.004 * x + 0.002 * y, 0.7 - 0.003 * x, 0.5, 1};
-  });
+  const Raster picture =
+      paint(60, 44, 3, kFineness, [](double x, double y) -> std::array<double, 4> {
+        return {0.2 + 0.004 * x + 0.002 * y, 0.7 - 0.003 * x, 0.5, 1};
+      });
   PatchMesh patches = fit_patches(irregular_mesh(5, 4, 60, 44, 1), picture);
   optimize_vertices(patches, picture);
   EXPECT_LT(mean_squared_error(patches, picture), 1e-11);
@@ -167,13 +156,7 @@ TEST(Optimize, KeepsRgbExactlyOpaque) {
   const Raster picture = disc(48, 48, 2);
   PatchMesh patches = fit_patches(lattice(6, 6, 48, 48), picture);
   optimize_vertices(patches, picture);
-  EXPECT_TRUE(patches.opaque);
-  for (const Wedge& w : patches.wedges) {
-    EXPECT_EQ(w.value[3], 1);
-    EXPECT_EQ(w.dx[3], 0);
-    EXPECT_EQ(w.dy[3], 0);
-    EXPECT_EQ(w.twist[3], 0);
-  }
+  testing::expect_exactly_opaque(patches);
 }
 
 TEST(Optimize, KeepsTheOutlineOfARegion) {
@@ -264,11 +247,12 @@ TEST(Optimize, SlidesTornVerticesAlongTheirChain) {
   }
   tear(vertex(7, 3), vertex(7, 2));
   tear(vertex(7, 2), vertex(7, 3));
-  const Raster picture = paint(100, 60, 3, [&](double x, double y) -> std::array<double, 4> {
-    const bool below = y > 30 + bend(x);
-    const double wave = 0.2 * std::sin(0.3 * x + 0.002 * x * x);
-    return {below ? 0.8 - wave : 0.2 + wave, below ? 0.3 : 0.5, 0.4 + wave, 1};
-  });
+  const Raster picture =
+      paint(100, 60, 3, kFineness, [&](double x, double y) -> std::array<double, 4> {
+        const bool below = y > 30 + bend(x);
+        const double wave = 0.2 * std::sin(0.3 * x + 0.002 * x * x);
+        return {below ? 0.8 - wave : 0.2 + wave, below ? 0.3 : 0.5, 0.4 + wave, 1};
+      });
   const PatchMesh before = fit_patches(mesh, picture);
   OptimizeOptions one_round;
   one_round.rounds = 1;

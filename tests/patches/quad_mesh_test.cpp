@@ -88,6 +88,13 @@ TEST(QuadMesh, ValencesOfALattice) {
   EXPECT_EQ(mesh.edge_count(), 17);
 }
 
+TEST(QuadMesh, NeighboursAreListedOnceAndAscending) {
+  const QuadMesh mesh = lattice(4, 3, 8, 6);
+  EXPECT_THAT(quads_at(mesh, std::vector<int>{7, 6}), ::testing::ElementsAre(0, 1, 2, 4, 5, 6));
+  EXPECT_THAT(corners_of(mesh, std::vector<int>{1, 0}), ::testing::ElementsAre(0, 1, 2, 5, 6, 7));
+  EXPECT_TRUE(quads_at(mesh, {}).empty());
+}
+
 TEST(QuadMesh, RejectsWhatIsNoMesh) {
   const std::vector<Vector2d> p = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}, {2, 2}, {1, 2}};
   const auto rejected = [&](std::vector<QuadMesh::Quad> quads, int vertices) {

@@ -6,45 +6,21 @@
 
 #include "patch_scan.h"
 #include "quadrille/error.h"
+#include "render_scenes.h"
 #include "support/random_patches.h"
 
 namespace quadrille {
 namespace {
 
+using testing::at_scale;
+using testing::picture_of;
 using testing::Random;
+using testing::random_image;
 using testing::random_patches;
+using testing::rectangle;
 using testing::set_linear_colors;
 using testing::set_random_colors;
 using testing::single_layer;
-
-VectorImage random_image(std::uint32_t seed, bool opaque = true) {
-  PatchMesh patches = random_patches(6, 5, 37, 29, seed, {0.25, 0.8});
-  set_random_colors(patches, seed + 100, opaque);
-  return single_layer(std::move(patches), 37, 29);
-}
-
-/// A picture of width x height with a rectangle of one colour (premultiplied) in it.
-Layer rectangle(double x, double y, double width, double height, const Color& color) {
-  Layer layer;
-  layer.patches = straight_patches(testing::lattice(3, 2, width, height));
-  set_linear_colors(layer.patches, color);
-  layer.transform.translate(Eigen::Vector2d(x, y));
-  return layer;
-}
-
-VectorImage picture_of(std::vector<Layer> layers, double width, double height) {
-  VectorImage image;
-  image.width = width;
-  image.height = height;
-  image.layers = std::move(layers);
-  return image;
-}
-
-RenderOptions at_scale(double scale) {
-  RenderOptions options;
-  options.scale = scale;
-  return options;
-}
 
 ErrorCode code_of(const std::function<void()>& run) {
   try {
@@ -186,124 +162,6 @@ TEST(Render, ThreadsDoNotMatter) {
     EXPECT_TRUE(render(image, at_scale(scale), two) == expected);
     EXPECT_TRUE(render(image, at_scale(scale), three) == expected);
   }
-}
-
-/// Mean over the 16 x 16 pixels of a 16 times finer picture, premultiplied.
-Color mean_of_fine(const Raster& fine, int x, int y) {
-  Color sum = Color::Zero();
-  for (int j = 0; j < 16; ++j) {
-    for (int i = 0; i < 16; ++i) {
-      const float* p = fine.pixel(16 * x + i, 16 * y + j);
-      sum += Color(p[0] * p[3], p[1] * p[3], p[2] * p[3], p[3]);
-    }
-  }
-  return sum / 256;
-}
-
-TEST(Render, AveragesPixelsOnTheOutlineOfARotatedLayer) {
-  VectorImage image = random_image(8);
-  image.layers[0].transform = Eigen::Translation2d(14, 2) * Eigen::Rotation2Dd(0.37);
-  image.width = 48, image.height = 48;
-  const Raster r = render(image), fine = render(image, at_scale(16));
-  double sum = 0, worst = 0, count = 0;
-  for (int y = 0; y < r.height; ++y) {
-    for (int x = 0; x < r.width; ++x) {
-      const Color truth = mean_of_fine(fine, x, y);
-      const float* p = r.pixel(x, y);
-      if (truth[3] < 1e-4 || truth[3] > 1 - 1e-4) {
-        EXPECT_NEAR(p[3], truth[3], 1e-4);
-        continue;
-      }
-      const Color drawn(p[0] * p[3], p[1] * p[3], p[2] * p[3], p[3]);
-      for (int k = 0; k < 4; ++k) {
-        const double error = 255 * std::abs(drawn[k] - truth[k]);
-        sum += error;
-        worst = std::max(worst, error);
-        ++count;
-      }
-    }
-  }
-  ASSERT_GT(count, 300);
-  EXPECT_LE(sum / count, 1.0);
-  EXPECT_LE(worst, 8.0);
-}
-
-TEST(Render, DoesNotTouchAnOutlineBetweenPixels) {
-  const VectorImage image = picture_of({rectangle(3, 2, 6, 5, Color(0, 1, 0, 1))}, 12, 10);
-  for (const double scale : {1.0, 3.0}) {
-    const Raster r = render(image, at_scale(scale));
-    for (int y = 0; y < r.height; ++y) {
-      for (int x = 0; x < r.width; ++x) {
-        const bool inside = x >= 3 * scale && x < 9 * scale && y >= 2 * scale && y < 7 * scale;
-        EXPECT_EQ(r.pixel(x, y)[3], inside ? 1 : 0);
-      }
-    }
-  }
-}
-
-TEST(Render, TakesTheAreaOfAPartlyCoveredPixel) {
-  const VectorImage image =
-      picture_of({rectangle(2.25, 3.5, 4, 4, Color(0.5f, 0.25f, 0, 1))}, 10, 10);
-  const Raster r = render(image);
-  EXPECT_FLOAT_EQ(r.pixel(2, 5)[3], 0.75f);
-  EXPECT_FLOAT_EQ(r.pixel(6, 5)[3], 0.25f);
-  EXPECT_FLOAT_EQ(r.pixel(4, 3)[3], 0.5f);
-  EXPECT_FLOAT_EQ(r.pixel(2, 3)[3], 0.375f);
-  EXPECT_FLOAT_EQ(r.pixel(2, 3)[0], 0.5f);
-  EXPECT_FLOAT_EQ(r.pixel(2, 3)[1], 0.25f);
-}
-
-TEST(Render, MixesBothSidesOfATear) {
-  // Two columns, torn along x = 5.25: black on the left, white on the right.
-  QuadMesh mesh = testing::lattice(2, 2, 10, 8);
-  for (auto& v : mesh.vertices) {
-    if (v.x() == 5) v.x() = 5.25;
-  }
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    const int h = mesh.halfedge(e);
-    if (mesh.vertices[mesh.origin(h)].x() == 5.25 && mesh.vertices[mesh.tip(h)].x() == 5.25) {
-      mesh.edge_flags[e] |= kTearEdge;
-    }
-  }
-  PatchMesh patches = straight_patches(std::move(mesh));
-  for (int h = 0; h < patches.mesh.halfedge_count(); ++h) {
-    const float value = QuadMesh::quad_of(h) % 2 ? 1.0f : 0.0f;
-    patches.wedges[patches.wedge_of_corner[h]].value = Color(value, value, value, 1);
-  }
-  const Raster r = render(single_layer(std::move(patches), 10, 8));
-  ASSERT_EQ(r.channels, 3);
-  for (int y = 0; y < 8; ++y) {
-    EXPECT_EQ(r.pixel(4, y)[0], 0);
-    EXPECT_FLOAT_EQ(r.pixel(5, y)[0], 0.75f);
-    EXPECT_EQ(r.pixel(6, y)[0], 1);
-  }
-}
-
-TEST(Render, BoxFiltersBelowScaleOne) {
-  PatchMesh patches = random_patches(6, 5, 40, 32, 12);
-  set_random_colors(patches, 13);
-  const VectorImage image = single_layer(std::move(patches), 40, 32);
-  const Raster whole = render(image);
-  for (const int k : {2, 4, 8}) {
-    const Raster small = render(image, at_scale(1.0 / k));
-    ASSERT_EQ(small.width, 40 / k);
-    for (int y = 0; y < small.height; ++y) {
-      for (int x = 0; x < small.width; ++x) {
-        double sum = 0;
-        for (int j = 0; j < k * k; ++j) sum += whole.pixel(k * x + j % k, k * y + j / k)[1];
-        EXPECT_NEAR(small.pixel(x, y)[1], sum / (k * k), 1e-6);
-      }
-    }
-  }
-  // More samples per pixel than a block holds.
-  PatchMesh large = straight_patches(testing::lattice(4, 3, 1200, 700));
-  set_linear_colors(large, Color(0, 1, 0, 1), Color(1 / 1200.0f, 0, 0, 0));
-  RenderOptions tiny;
-  tiny.width = 2;
-  tiny.height = 1;
-  const Raster r = render(single_layer(std::move(large), 1200, 700), tiny);
-  EXPECT_NEAR(r.pixel(0, 0)[0], 0.25, 1e-4);
-  EXPECT_NEAR(r.pixel(1, 0)[0], 0.75, 1e-4);
 }
 
 TEST(Render, CompositesLayersAndBackground) {

@@ -87,42 +87,41 @@ TEST(TornFit, FindsLinearColoursOnBothSides) {
   EXPECT_LT(largest_difference(drawn(fit_patches(split.mesh, picture), picture), picture), 1e-4);
 }
 
+/// A disc of kLeft in another colour, and patches with a tear along the circle fitted to it.
+struct TornDisc {
+  Raster picture;
+  PatchMesh patches;
+
+  TornDisc(int columns, int width, int height, const Vector2d& center, double radius,
+           const Array4d& outside) {
+    const auto color_at = [&](const Vector2d& p) {
+      return (p - center).norm() < radius ? kLeft : outside;
+    };
+    DiscMesh disc = disc_mesh(columns, 1, 2, width, height, center, radius);
+    tear(disc.mesh, disc.circle);
+    picture =
+        paint_box_filtered(width, height, outside[3] < 1 ? 4 : 3, 32, [&](double x, double y) {
+          return color_at({x, y});
+        });
+    patches = fit_patches(disc.mesh, picture);
+    // What remains is the distance of the curves from the circle.
+    for_each_corner(patches, [&](const Wedge& w, const Vector2d& middle) {
+      EXPECT_LT((w.value.cast<double>() - color_at(middle)).abs().maxCoeff(), 0.02);
+    });
+  }
+};
+
 TEST(TornFit, FindsBothColoursOfADisc) {
-  const int width = 64, height = 60;
-  const Vector2d center(31.3, 30.6);
-  const double radius = 18.7;
-  DiscMesh disc = disc_mesh(4, 1, 2, width, height, center, radius);
-  tear(disc.mesh, disc.circle);
-  const Raster picture = paint_box_filtered(width, height, 3, 32, [&](double x, double y) {
-    return (Vector2d(x, y) - center).norm() < radius ? kLeft : kRight;
-  });
-  const PatchMesh patches = fit_patches(disc.mesh, picture);
-  // What remains is the distance of the curves from the circle.
-  EXPECT_LT(largest_difference(drawn(patches, picture), picture), 0.02);
-  for_each_corner(patches, [&](const Wedge& w, const Vector2d& middle) {
-    const Array4d expected = (middle - center).norm() < radius ? kLeft : kRight;
-    EXPECT_LT((w.value.cast<double>() - expected).abs().maxCoeff(), 0.02);
-  });
+  const TornDisc disc(4, 64, 60, {31.3, 30.6}, 18.7, kRight);
+  EXPECT_LT(largest_difference(drawn(disc.patches, disc.picture), disc.picture), 0.02);
 }
 
 TEST(TornFit, KeepsTheColourInsideASilhouette) {
-  const int width = 64, height = 64;
-  const Vector2d center(32.4, 31.1);
-  const double radius = 20.2;
-  DiscMesh disc = disc_mesh(5, 1, 2, width, height, center, radius);
-  tear(disc.mesh, disc.circle);
-  const Raster picture = paint_box_filtered(width, height, 4, 32, [&](double x, double y) {
-    return (Vector2d(x, y) - center).norm() < radius ? kLeft : kNone;
-  });
-  const PatchMesh patches = fit_patches(disc.mesh, picture);
-  for_each_corner(patches, [&](const Wedge& w, const Vector2d& middle) {
-    const Array4d expected = (middle - center).norm() < radius ? kLeft : kNone;
-    EXPECT_LT((w.value.cast<double>() - expected).abs().maxCoeff(), 0.02);
-  });
+  const TornDisc disc(5, 64, 64, {32.4, 31.1}, 20.2, kNone);
   // No halo: wherever something is drawn it has the colour of the inside.
-  const Raster result = drawn(patches, picture);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  const Raster result = drawn(disc.patches, disc.picture);
+  for (int y = 0; y < result.height; ++y) {
+    for (int x = 0; x < result.width; ++x) {
       const float* p = result.pixel(x, y);
       if (p[3] < 0.1) continue;
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(p[k], kLeft[k], 0.02) << x << ' ' << y;

@@ -124,13 +124,4 @@ void set_linear_colors(PatchMesh& patches, const Color& base, const Color& along
   patches.opaque = base[3] == 1 && along_x[3] == 0 && along_y[3] == 0;
 }
 
-VectorImage single_layer(PatchMesh patches, double width, double height) {
-  VectorImage image;
-  image.width = width;
-  image.height = height;
-  image.layers.resize(1);
-  image.layers[0].patches = std::move(patches);
-  return image;
-}
-
 }  // namespace quadrille::testing

@@ -47,7 +47,6 @@ void set_random_colors(PatchMesh& patches, std::uint32_t seed, bool opaque = tru
 void set_linear_colors(PatchMesh& patches, const Color& base, const Color& along_x = Color::Zero(),
                        const Color& along_y = Color::Zero());
 
-/// A picture of one untransformed layer.
-VectorImage single_layer(PatchMesh patches, double width, double height);
+using quadrille::single_layer;
 
 }  // namespace quadrille::testing

@@ -24,11 +24,8 @@ using test::disc_picture;
 
 /// What the picture's fit to the mesh shows.
 Raster drawn(const QuadMesh& mesh, const Raster& picture) {
-  VectorImage image;
-  image.width = picture.width;
-  image.height = picture.height;
-  image.layers.emplace_back().patches = fit_patches(mesh, picture, {.method = FitMethod::bessel});
-  return render(image);
+  return render(single_layer(fit_patches(mesh, picture, {.method = FitMethod::bessel}),
+                             picture.width, picture.height));
 }
 
 VectorizeOptions with_all_chains(int quads) {

@@ -19,8 +19,7 @@ FeatureTensor flat_features(int w, int h) {
 }
 
 CrossField uniform_field(int w, int h, double angle) {
-  return {FieldGrid<std::complex<float>>(w, h, std::polar(1.0f, float(4 * angle))),
-          FieldGrid<float>(w, h, 1)};
+  return {FieldGrid<std::complex<float>>(w, h, std::polar(1.0f, float(4 * angle))), {}};
 }
 
 double cells(const ScaleField& scale) {

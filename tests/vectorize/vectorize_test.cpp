@@ -176,6 +176,9 @@ TEST(Vectorize, RefusesOptionsOutOfRangeOfStagesThatALatticeLeavesOut) {
   EXPECT_TRUE(refused([](VectorizeOptions& o) { o.position.sweeps = -1; }));
   EXPECT_TRUE(refused([](VectorizeOptions& o) { o.position.feature_weight = 2; }));
   EXPECT_TRUE(refused([](VectorizeOptions& o) { o.snap.rounds = -1; }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.chains.contrast = 0; }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.tears.price = -1; }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.fit.tolerance = 0; }));
 }
 
 TEST(Vectorize, StopsWhenTheObserverSaysSo) {

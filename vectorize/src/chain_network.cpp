@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "chain_curve.h"
+
 namespace quadrille {
 namespace {
 
@@ -65,12 +67,6 @@ Vector2d meeting_point(const std::vector<Line>& lines, const Vector2d& start) {
 
 double turn(const Vector2d& in, const Vector2d& out) {
   return std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
-}
-
-std::vector<double> arc_lengths(const std::vector<Vector2d>& points) {
-  std::vector<double> s(points.size(), 0);
-  for (std::size_t i = 1; i < s.size(); ++i) s[i] = s[i - 1] + (points[i] - points[i - 1]).norm();
-  return s;
 }
 
 /// Indices of the points where the line turns sharply, ascending.

@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "arc_division.h"
+#include "chain_curve.h"
 #include "curve_index.h"
 
 namespace quadrille {
@@ -15,12 +17,11 @@ using Eigen::Vector2d;
 constexpr double kReach = 0.35;      // of lattice points to the chain, in spacings
 constexpr double kClearance = 0.25;  // of other lattice points from the chain, in spacings
 constexpr double kClosest = 0.5;     // least distance between samples along the chain, in spacings
-// A piece is divided where the curve leaves the parabola through its ends and its middle by more
-// than this many pixels or spacings,
-constexpr double kTolerance = 0.25, kCoarseTolerance = 0.02;
-// or turns by more than this share of its length away from its chord, but not below this length.
-constexpr double kMostBulge = 0.2;
-constexpr double kShortest = 3, kCoarseShortest = 0.35;
+constexpr ArcTolerance kTolerance = {.most_bulge = 0.2,
+                                     .distance = 0.25,
+                                     .coarse_distance = 0.02,
+                                     .shortest = 3,
+                                     .coarse_shortest = 0.35};
 
 /// The samples of one chain, by arc length, without its ends.
 class ChainSampler {
@@ -46,18 +47,19 @@ class ChainSampler {
 
   void fill_gaps() {
     std::vector<double> all = {0.0};
+    const auto is_good = [&](double from, double to) {
+      return follows_arc([&](double s) { return curve_.at(s); }, from, to,
+                         spacing_between(from, to), kTolerance);
+    };
     for (std::size_t i = 1; i < places_.size(); ++i) {
       const double from = places_[i - 1], whole = places_[i] - from;
-      constexpr int kSteps = 16;
-      double edges = 0;
-      for (int k = 0; k < kSteps; ++k) {
-        edges += whole / kSteps /
-                 spacing_between(from + whole * k / kSteps, from + whole * (k + 1) / kSteps);
-      }
-      const int parts = std::max(1, static_cast<int>(std::lround(std::min(edges, 1e6))));
+      const int parts = edge_count(whole, [&](double t0, double t1) {
+        return spacing_between(from + whole * t0, from + whole * t1);
+      });
       for (int k = 0; k < parts; ++k) {
         const double end = k + 1 == parts ? places_[i] : from + whole * (k + 1) / parts;
-        refine(from + whole * k / parts, end, all);
+        halve_arc(from + whole * k / parts, end, is_good, [&](double s) { all.push_back(s); });
+        all.push_back(end);
       }
     }
     places_ = std::move(all);
@@ -71,70 +73,84 @@ class ChainSampler {
   double spacing_between(double from, double to) const {
     return spacing_(curve_.at(0.5 * (from + to)), curve_.direction(from, to));
   }
-
-  /// Appends the places after `from` up to `to`.
-  void refine(double from, double to, std::vector<double>& all) const {
-    if (fits(from, to)) {
-      all.push_back(to);
-      return;
-    }
-    refine(from, 0.5 * (from + to), all);
-    refine(0.5 * (from + to), to, all);
-  }
-
-  bool fits(double from, double to) const {
-    const double arc = to - from;
-    const double spacing = spacing_between(from, to);
-    if (arc < std::max(kShortest, kCoarseShortest * spacing)) return true;
-    const Vector2d a = curve_.at(from), b = curve_.at(to);
-    const Vector2d chord = b - a, bulge = curve_.at(0.5 * (from + to)) - 0.5 * (a + b);
-    const double tolerance = std::max(kTolerance, kCoarseTolerance * spacing);
-    if (bulge.norm() > std::max(kMostBulge * chord.norm(), 0.5 * tolerance)) return false;
-    const int steps = std::clamp(static_cast<int>(arc), 4, 64);
-    for (int k = 1; k < steps; ++k) {
-      const double t = static_cast<double>(k) / steps;
-      const Vector2d parabola = a + t * chord + 4 * t * (1 - t) * bulge;
-      if ((curve_.at(from + t * arc) - parabola).norm() > tolerance) return false;
-    }
-    return true;
-  }
 };
 
 CurveIndex index_of(const ChainNetwork& network, double cell) {
   std::vector<CurveSegment> segments;
   for (int c = 0; c < static_cast<int>(network.chains.size()); ++c) {
     const std::vector<Vector2d>& p = network.chains[c].points;
-    double s = 0;
-    for (std::size_t i = 1; i < p.size(); ++i) {
-      segments.push_back({c, p[i - 1], p[i], s});
-      s += (p[i] - p[i - 1]).norm();
-    }
+    const std::vector<double> s = arc_lengths(p);
+    for (std::size_t i = 1; i < p.size(); ++i) segments.push_back({c, p[i - 1], p[i], s[i - 1]});
   }
   return CurveIndex(std::move(segments), cell);
 }
 
-}  // namespace
+/// What takes the place of a lattice point: the place s on a chain, or one of the constants.
+struct SampleKey {
+  int chain = kNoSample;
+  double s = 0;
+};
 
-ChainCurve::ChainCurve(const std::vector<Vector2d>& points) : points_(points), arc_{0.0} {
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    arc_.push_back(arc_.back() + (points[i] - points[i - 1]).norm());
+/// Takes the lattice points near the chains as samples of them.
+std::vector<SampleKey> take_lattice_points(std::vector<ChainSampler>& samplers,
+                                           const CurveIndex& index, const LatticeGraph& graph,
+                                           double width, double height) {
+  std::vector<SampleKey> keys(graph.points.size());
+  const auto is_on_border = [&](const Vector2d& p) {
+    return p.x() <= 0 || p.y() <= 0 || p.x() >= width || p.y() >= height;
+  };
+  for (std::size_t p = 0; p < graph.points.size(); ++p) {
+    const auto place = index.nearest(graph.points[p], kReach * graph.spacing[p]);
+    if (!place) continue;
+    ChainSampler& sampler = samplers[place->curve];
+    if (!is_on_border(graph.points[p])) {
+      keys[p] = {place->curve, sampler.take(place->s, graph.spacing[p])};
+      continue;
+    }
+    // Points of the picture's border may only become nodes on it.
+    const double end = place->s < 0.5 * sampler.curve().length() ? 0 : sampler.curve().length();
+    if (is_on_border(sampler.curve().at(end)) &&
+        std::abs(end - place->s) < kClosest * graph.spacing[p]) {
+      keys[p] = {place->curve, end};
+    } else if (place->distance < kClearance * graph.spacing[p]) {
+      keys[p].chain = kInTheWay;
+    }
   }
+  return keys;
 }
 
-Vector2d ChainCurve::at(double s) const {
-  const auto after = std::upper_bound(arc_.begin(), arc_.end(), s);
-  const std::size_t i = std::clamp<std::ptrdiff_t>(after - arc_.begin() - 1, 0,
-                                                   static_cast<std::ptrdiff_t>(points_.size()) - 2);
-  const double size = arc_[i + 1] - arc_[i];
-  const double t = size > 0 ? std::clamp((s - arc_[i]) / size, 0.0, 1.0) : 0;
-  return points_[i] + t * (points_[i + 1] - points_[i]);
+/// Fills the samples' gaps, lists points and pieces, and says which point each place of a chain is.
+std::vector<std::map<double, int>> list_samples(const ChainNetwork& network,
+                                                std::vector<ChainSampler>& samplers,
+                                                ChainSamples& samples) {
+  samples.points = network.nodes;
+  std::vector<std::map<double, int>> sample_at(samplers.size());
+  for (int c = 0; c < static_cast<int>(samplers.size()); ++c) {
+    samplers[c].fill_gaps();
+    const FeatureChain& chain = network.chains[c];
+    const std::vector<double>& places = samplers[c].places();
+    int a = chain.from;
+    sample_at[c][places.front()] = a;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      int b = chain.to;
+      if (i + 1 < places.size()) {
+        b = static_cast<int>(samples.points.size());
+        samples.points.push_back(samplers[c].curve().at(places[i]));
+      }
+      sample_at[c][places[i]] = b;
+      samples.pieces.push_back({c, places[i - 1], places[i], a, b});
+      a = b;
+    }
+  }
+  samples.neighbours.resize(samples.points.size());
+  for (const ChainSamples::Piece& piece : samples.pieces) {
+    samples.neighbours[piece.a].push_back(piece.b);
+    samples.neighbours[piece.b].push_back(piece.a);
+  }
+  return sample_at;
 }
 
-Vector2d ChainCurve::direction(double from, double to) const {
-  const Vector2d chord = at(to) - at(from);
-  const double length = chord.norm();
-  return length > 0 ? Vector2d(chord / length) : Vector2d(1, 0);
-}
+}  // namespace
 
 bool ChainSamples::is_ear(int a, int b) const {
   constexpr int kSteps = 3;
@@ -168,62 +184,13 @@ ChainSamples sample_chains(const ChainNetwork& network, const LatticeGraph& grap
                            const DirectedSpacing& spacing, double width, double height) {
   std::vector<ChainSampler> samplers;
   for (const FeatureChain& chain : network.chains) samplers.emplace_back(chain, spacing);
-
-  struct Key {
-    int chain = kNoSample;
-    double s = 0;
-  };
-  std::vector<Key> keys(graph.points.size());
   const double mean_spacing =
       std::accumulate(graph.spacing.begin(), graph.spacing.end(), 0.0) / graph.spacing.size();
   const CurveIndex index = index_of(network, std::max(2.0, mean_spacing));
-  const auto is_on_border = [&](const Vector2d& p) {
-    return p.x() <= 0 || p.y() <= 0 || p.x() >= width || p.y() >= height;
-  };
-  for (std::size_t p = 0; p < graph.points.size(); ++p) {
-    const auto place = index.nearest(graph.points[p], kReach * graph.spacing[p]);
-    if (!place) continue;
-    ChainSampler& sampler = samplers[place->curve];
-    if (!is_on_border(graph.points[p])) {
-      keys[p] = {place->curve, sampler.take(place->s, graph.spacing[p])};
-      continue;
-    }
-    // Points of the picture's border may only become nodes on it.
-    const double end = place->s < 0.5 * sampler.curve().length() ? 0 : sampler.curve().length();
-    if (is_on_border(sampler.curve().at(end)) &&
-        std::abs(end - place->s) < kClosest * graph.spacing[p]) {
-      keys[p] = {place->curve, end};
-    } else if (place->distance < kClearance * graph.spacing[p]) {
-      keys[p].chain = kInTheWay;
-    }
-  }
-
+  const std::vector<SampleKey> keys = take_lattice_points(samplers, index, graph, width, height);
   ChainSamples samples;
-  samples.points = network.nodes;
-  std::vector<std::map<double, int>> sample_at(samplers.size());
-  for (int c = 0; c < static_cast<int>(samplers.size()); ++c) {
-    samplers[c].fill_gaps();
-    const FeatureChain& chain = network.chains[c];
-    const std::vector<double>& places = samplers[c].places();
-    int a = chain.from;
-    sample_at[c][places.front()] = a;
-    for (std::size_t i = 1; i < places.size(); ++i) {
-      int b = chain.to;
-      if (i + 1 < places.size()) {
-        b = static_cast<int>(samples.points.size());
-        samples.points.push_back(samplers[c].curve().at(places[i]));
-      }
-      sample_at[c][places[i]] = b;
-      samples.pieces.push_back({c, places[i - 1], places[i], a, b});
-      a = b;
-    }
-  }
-  samples.neighbours.resize(samples.points.size());
-  for (const ChainSamples::Piece& piece : samples.pieces) {
-    samples.neighbours[piece.a].push_back(piece.b);
-    samples.neighbours[piece.b].push_back(piece.a);
-  }
-  for (const Key& key : keys) {
+  const std::vector<std::map<double, int>> sample_at = list_samples(network, samplers, samples);
+  for (const SampleKey& key : keys) {
     samples.sample_of_lattice_point.push_back(key.chain < 0 ? key.chain
                                                             : sample_at[key.chain].at(key.s));
   }

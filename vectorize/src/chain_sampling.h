@@ -17,20 +17,6 @@ using DirectedSpacing = std::function<double(const Eigen::Vector2d&, const Eigen
 DirectedSpacing directed_spacing(const CrossField& field, const ScaleField& scale, double scale_x,
                                  double scale_y);
 
-/// A curve between two nodes of a chain network, by arc length.
-class ChainCurve {
- public:
-  explicit ChainCurve(const std::vector<Eigen::Vector2d>& points);
-  double length() const { return arc_.back(); }
-  Eigen::Vector2d at(double s) const;
-  /// Unit direction of the chord between two places.
-  Eigen::Vector2d direction(double from, double to) const;
-
- private:
-  const std::vector<Eigen::Vector2d>& points_;
-  std::vector<double> arc_;  // of each point
-};
-
 /// The vertices that the mesh gets on chains, and the curves' pieces between them.
 struct ChainSamples {
   struct Piece {

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "chain_curve.h"
+
 namespace quadrille {
 namespace {
 
@@ -48,12 +50,6 @@ class NearPoints {
     return y * (1LL << 32) + x;
   }
 };
-
-double length_of(const std::vector<Vector2d>& points) {
-  double length = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
-  return length;
-}
 
 class Separator {
  public:
@@ -109,7 +105,7 @@ class Separator {
     const int n = static_cast<int>(chain.points.size());
     FeatureChain piece = chain;
     piece.points.assign(chain.points.begin() + begin, chain.points.begin() + end);
-    piece.length = length_of(piece.points);
+    piece.length = arc_lengths(piece.points).back();
     if (end - begin < n && piece.length < min_length_) return;
     const auto free_end = [&](const Vector2d& p) {
       result_.nodes.push_back(p);

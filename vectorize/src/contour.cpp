@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "quadrille/remove_duplicates.h"
+
 namespace quadrille {
 namespace {
 
@@ -112,8 +114,7 @@ std::vector<double> Contour::frame_ends(const Spacing& spacing, double width, do
     ends.push_back(arc_[from]);
     ends.push_back(arc_[to]);
   }
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  remove_duplicates(ends);
   return ends;
 }
 

@@ -38,7 +38,7 @@ class Phases {
     pull_toward_unit_length();
     for (int round = 0; round < options_.renormalizing_rounds; ++round) {
       context_.progress("cross field", (round + 1.0) / (options_.renormalizing_rounds + 3));
-      smooth_from_unit_length(field_.z);
+      smooth_from_unit_length();
     }
     for (Complex& z : field_.z.data) z = unit(z);
     finish("renormalised");
@@ -58,17 +58,7 @@ class Phases {
     finish("paper");
   }
 
-  /// One more smoothing, for the confidence.
-  CrossField take() {
-    ComplexGrid smoothed = field_.z;
-    pull_toward_unit_length();
-    smooth_from_unit_length(smoothed);
-    field_.confidence = FieldGrid<float>(smoothed.width, smoothed.height);
-    for (std::size_t i = 0; i < smoothed.data.size(); ++i) {
-      field_.confidence.data[i] = std::min(1.0f, std::sqrt(std::norm(smoothed.data[i])));
-    }
-    return std::move(field_);
-  }
+  CrossField take() { return std::move(field_); }
 
  private:
   const FeatureTensor& features_;
@@ -85,11 +75,11 @@ class Phases {
     solver_.set_mass(mass);
   }
 
-  void smooth_from_unit_length(ComplexGrid& z) {
+  void smooth_from_unit_length() {
     const float mu = static_cast<float>(options_.renormalizing_weight);
     ComplexGrid b = data_.pull;
-    for (std::size_t i = 0; i < b.data.size(); ++i) b.data[i] += mu * unit(z.data[i]);
-    solver_.improve(b, z, kRoundCycles);
+    for (std::size_t i = 0; i < b.data.size(); ++i) b.data[i] += mu * unit(field_.z.data[i]);
+    solver_.improve(b, field_.z, kRoundCycles);
   }
 
   void finish(const char* name) {

@@ -5,8 +5,8 @@
 
 namespace quadrille {
 
-/// Removes irregular vertices and triangles by local changes that lower irregularity() and pass the
-/// guard of GuardedEditor, the largest gain first at each place:
+/// Removes irregular vertices and triangles by local changes that lower the irregularity and pass
+/// the guard of GuardedEditor, the largest gain first at each place:
 ///
 /// - Re-division of a chain of faces, each joined to the next by an edge that is not kept: of all
 ///   divisions of its outline into quads (and a triangle if it has an odd number of corners) the

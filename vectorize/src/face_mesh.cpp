@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "quadrille/remove_duplicates.h"
+
 namespace quadrille {
 namespace {
 
@@ -19,11 +21,6 @@ double corner_angle(const std::vector<Vector2d>& points, const Face& f, int k) {
 }
 
 std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-void remove_duplicates(std::vector<int>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
 
 }  // namespace
 
@@ -104,15 +101,6 @@ void FaceMesh::collect_star(int v, std::vector<StarWedge>& wedges) const {
     wedges.push_back({points[face[(k + n - 2) % n]], points[face[(k + n - 1) % n]],
                       points[face[(k + 1) % n]], points[face[(k + 2) % n]]});
   }
-}
-
-int FaceMesh::irregularity() const {
-  int sum = 0;
-  for (int v = 0; v < vertex_count(); ++v) {
-    if (!faces_at_[v].empty()) sum += penalty(v, excess(v));
-  }
-  for (const Face& face : faces_) sum += face.size == 3;
-  return sum;
 }
 
 int FaceMesh::irregularity_change(const FaceEdit& edit) const {

@@ -73,9 +73,8 @@ class FaceMesh {
   /// The faces around v as its star in which it can be moved.
   void collect_star(int v, std::vector<StarWedge>& wedges) const;
 
-  /// Sum of the vertices' penalties, plus one for every triangle.
-  int irregularity() const;
-  /// By how much an edit would change it.
+  /// By how much an edit would change the irregularity: the sum of the vertices' penalties, plus
+  /// one for every triangle.
   int irregularity_change(const FaceEdit& edit) const;
   /// Fills in the faces that the merges of an edit remove and add. The vertex with the stricter
   /// guide is kept. False when the two may not become one: both fixed, on different lines, both

@@ -74,17 +74,28 @@ struct Pull {
   Vector2d wish[2] = {Vector2d::Zero(), Vector2d::Zero()};
 };
 
-/// Signed distance along `normal` from `start` to the cheapest split between the colour `near` (at
-/// the start) and `far`, at most `reach`, and its gain over no move; improves on what is passed in.
-void seek_split(const Colours& colours, const Vector2d& start, const Vector2d& normal, double reach,
-                double step, const Colour& near, const Colour& far, double sign, double& offset,
-                double& cost) {
+/// The way from an edge into one of its quads.
+struct Probe {
+  Vector2d start, direction;
+  double reach, step;
+};
+
+/// How far from the start one colour ends and the other begins, and what that saves over no move.
+struct Split {
+  double distance = 0, cost = 0;
+};
+
+/// The cheapest one between the colour `near` at the start and `far`.
+Split cheapest_split(const Colours& colours, const Probe& probe, const Colour& near,
+                     const Colour& far) {
+  Split best;
   double total = 0;
-  for (double s = 0.5 * step; s < reach; s += step) {
-    const Colour here = colours.at(start + sign * s * normal);
-    total += ((here - far).squaredNorm() - (here - near).squaredNorm()) * step;
-    if (total < cost) cost = total, offset = sign * (s + 0.5 * step);
+  for (double s = 0.5 * probe.step; s < probe.reach; s += probe.step) {
+    const Colour here = colours.at(probe.start + s * probe.direction);
+    total += ((here - far).squaredNorm() - (here - near).squaredNorm()) * probe.step;
+    if (total < best.cost) best = {s + 0.5 * probe.step, total};
   }
+  return best;
 }
 
 Pull edge_pull(const QuadMesh& mesh, int e, const std::vector<Colour>& means,
@@ -109,12 +120,13 @@ Pull edge_pull(const QuadMesh& mesh, int e, const std::vector<Colour>& means,
   for (int k = 0; k < samples; ++k) {
     const double t = (k + 0.5) / samples;
     const Vector2d place = start + t * along;
-    double offset = 0, cost = 0;
     // Moving into the inner quad gives its pixels to the outer one.
-    seek_split(colours, place, normal, kReach * width_in, step, means[inner], means[outer], 1,
-               offset, cost);
-    seek_split(colours, place, normal, kReach * width_out, step, means[outer], means[inner], -1,
-               offset, cost);
+    const Split in = cheapest_split(colours, {place, normal, kReach * width_in, step}, means[inner],
+                                    means[outer]);
+    const Split out = cheapest_split(colours, {place, -normal, kReach * width_out, step},
+                                     means[outer], means[inner]);
+    const double cost = std::min(in.cost, out.cost);
+    double offset = out.cost < in.cost ? -out.distance : in.distance;
     // A clear step saves its whole contrast per pixel; what saves less, noise or a ramp, pulls
     // less.
     if (offset != 0) offset *= std::min(1.0, -cost / (contrast2 * std::abs(offset)));

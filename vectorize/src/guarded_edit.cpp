@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "quadrille/remove_duplicates.h"
+
 namespace quadrille {
 namespace {
 
@@ -38,8 +40,7 @@ void GuardedEditor::note_touched(const FaceEdit& edit) {
   };
   for (const int f : edit.removed) add(mesh_.face(f));
   for (const Face& face : edit.added) add(face);
-  std::sort(touched_.begin(), touched_.end());
-  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  remove_duplicates(touched_);
   saved_.clear();
   for (const int v : touched_) saved_.push_back(mesh_.points[v]);
 }
@@ -49,8 +50,7 @@ double GuardedEditor::badness_around() const {
   for (const int v : touched_) {
     faces.insert(faces.end(), mesh_.faces_at(v).begin(), mesh_.faces_at(v).end());
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  remove_duplicates(faces);
   double sum = 0;
   for (const int f : faces) {
     const double lacking = std::max(0.0, kGoodQuality - face_quality(mesh_, mesh_.face(f)));

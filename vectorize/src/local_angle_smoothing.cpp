@@ -96,7 +96,7 @@ CrossField local_angle_smoothing(const FeatureTensor& features,
     q = std::move(finer);
   }
 
-  CrossField field{ComplexGrid(q.width, q.height), FieldGrid<float>(q.width, q.height, 1), {}};
+  CrossField field{ComplexGrid(q.width, q.height), {}};
   for (std::size_t i = 0; i < q.data.size(); ++i) {
     const std::complex<float> direction(q.data[i].x(), q.data[i].y());
     field.z.data[i] = unit(direction * direction * direction * direction);

@@ -9,7 +9,8 @@
 namespace quadrille {
 
 /// Each throws Error{invalid_argument} for options outside their ranges. The stages check their
-/// own; quadrangulate() checks all of them first, also where it leaves a stage out.
+/// own; quadrangulate() checks all of them first, with those of tears and fits, also where it
+/// leaves a stage out.
 void check_options(const CrossFieldOptions& options);
 void check_options(const ScaleOptions& options);
 void check_options(const PositionOptions& options);

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "arc_division.h"
+
 namespace quadrille {
 namespace {
 
@@ -13,12 +15,11 @@ using Eigen::Vector2d;
 constexpr double kReach = 0.35;     // of lattice points to the outline, in spacings
 constexpr double kClosest = 0.5;    // least distance between samples along the outline, in spacings
 constexpr double kLeastArc = 0.25;  // pixels
-// An edge is divided where the outline leaves its chord by more than this share of its length,
-constexpr double kMostBulge = 0.2;
-// or the parabola through its ends and its midpoint by more than this many pixels or spacings,
-constexpr double kTolerance = 0.4, kCoarseTolerance = 0.03;
-// but not below this length.
-constexpr double kShortest = 2, kCoarseShortest = 0.2;
+constexpr ArcTolerance kTolerance = {.most_bulge = 0.2,
+                                     .distance = 0.4,
+                                     .coarse_distance = 0.03,
+                                     .shortest = 2,
+                                     .coarse_shortest = 0.2};
 constexpr int kLeastSamples = 4;  // per loop
 constexpr int kRepairRounds = 12;
 
@@ -57,12 +58,9 @@ class LoopSampler {
     if (samples_.empty()) samples_[0] = {};
     for (const auto& [from, to] : arcs()) {
       const double whole = to - from;
-      constexpr int kSteps = 16;
-      double edges = 0;
-      for (int k = 0; k < kSteps; ++k) {
-        edges += whole / kSteps / spacing_(contour_.at(from + whole * (k + 0.5) / kSteps));
-      }
-      const int parts = std::max(1, static_cast<int>(std::lround(std::min(edges, 1e6))));
+      const int parts = edge_count(whole, [&, start = from](double t0, double t1) {
+        return spacing_(contour_.at(start + whole * (0.5 * (t0 + t1))));
+      });
       for (int k = 1; k < parts; ++k) add(from + whole * k / parts);
       for (int k = 0; k < parts; ++k) {
         refine(from + whole * k / parts, from + whole * (k + 1) / parts);
@@ -148,24 +146,11 @@ class LoopSampler {
   }
 
   void refine(double from, double to) {
-    const double arc = to - from;
-    const double spacing = spacing_(contour_.at(0.5 * (from + to)));
-    if (arc < std::max(kShortest, kCoarseShortest * spacing)) return;
-    const Vector2d a = contour_.smooth_at(from), b = contour_.smooth_at(to);
-    const Vector2d middle = contour_.smooth_at(0.5 * (from + to));
-    const Vector2d chord = b - a, bulge = middle - 0.5 * (a + b);
-    const double tolerance = std::max(kTolerance, kCoarseTolerance * spacing);
-    bool fits = bulge.norm() <= std::max(kMostBulge * chord.norm(), 0.5 * tolerance);
-    const int steps = std::clamp(static_cast<int>(arc), 4, 64);
-    for (int k = 1; k < steps && fits; ++k) {
-      const double t = static_cast<double>(k) / steps;
-      const Vector2d parabola = a + t * chord + 4 * t * (1 - t) * bulge;
-      fits = (contour_.smooth_at(from + t * arc) - parabola).norm() <= tolerance;
-    }
-    if (fits) return;
-    add(0.5 * (from + to));
-    refine(from, 0.5 * (from + to));
-    refine(0.5 * (from + to), to);
+    const auto is_good = [&](double a, double b) {
+      return follows_arc([&](double s) { return contour_.smooth_at(s); }, a, b,
+                         spacing_(contour_.at(0.5 * (a + b))), kTolerance);
+    };
+    halve_arc(from, to, is_good, [&](double s) { add(s); });
   }
 
   const Contour& contour_;

@@ -8,11 +8,13 @@
 #include <numeric>
 #include <set>
 
+#include "chain_curve.h"
 #include "chain_sampling.h"
 #include "convex_faces.h"
 #include "divide_faces.h"
 #include "face_cleanup.h"
 #include "feature_bending.h"
+#include "feature_release.h"
 #include "lattice_graph.h"
 #include "outline_bending.h"
 #include "shape_smoothing.h"

@@ -20,7 +20,7 @@ namespace {
 constexpr double kRoundingSlack = 1 + 1e-9;
 // Lattice edges inside an outline for which fields are solved, in source pixels.
 constexpr double kShortestRegionEdge = 2;
-constexpr double kDraftTolerance = 0.1;  // of a draft's count
+constexpr double kDraftMiss = 0.1;  // of a draft's count, relative
 
 void check(const VectorizeOptions& options) {
   if (options.quads < 1) {
@@ -37,6 +37,8 @@ void check(const VectorizeOptions& options) {
   check_options(options.position);
   check_options(options.snap);
   check_options(options.chains);
+  check_options(options.tears);
+  check_options(options.fit);
   if (options.feedback < 0) {
     throw Error(
         ErrorCode::invalid_argument,
@@ -91,8 +93,7 @@ void mesh_by_fields(Quadrangulation& result, const Raster& picture, double edge,
   result.cross = cross_field(result.features, options.cross_field, context);
   clock.finish("cross field", phase_figures(result.cross));
   const bool is_draft = quality == MeshQuality::draft;
-  const CountWish wish = {wished_density(result, options),
-                          is_draft ? kDraftTolerance : kCloseEnough};
+  const CountWish wish = {wished_density(result, options), is_draft ? kDraftMiss : kCloseEnough};
   mesh_to_count(result, picture, edge, options, wish, clock, context);
   if (is_draft) return;
   snap_to_features(result.mesh, shown, options.snap, context);
@@ -122,8 +123,9 @@ Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& opt
   // The fields cover the rectangle, at a resolution that a small outline would drive up.
   const bool worthwhile = whole || edge >= kShortestRegionEdge;
   const bool has_room = worthwhile && 2 * edge <= std::min(width, height) * kRoundingSlack;
-  if (has_room && !options.lattice)
+  if (has_room && !options.lattice) {
     mesh_by_fields(result, picture, edge, options, quality, context);
+  }
   if (is_valid(result.mesh, result.outline, picture)) return result;
 
   result.fallback = !options.lattice;

@@ -1,7 +1,7 @@
 // Field-aligned Quadrangulation for Image Vectorization (Wei et al. 2019).
 #include "quadrille/vectorize.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "draft_mesh.h"
 #include "quadrille/mesh_region.h"
@@ -11,8 +11,6 @@
 
 namespace quadrille {
 namespace {
-
-constexpr double kDraftTolerance = 1e-2;  // of fits that are made again
 
 VectorizeReport describe(const Raster& picture, const Quadrangulation& quads,
                          const PatchMesh& patches) {
@@ -48,27 +46,15 @@ VectorizeReport describe(const Raster& picture, const Quadrangulation& quads,
   return report;
 }
 
-VectorImage picture_of(const Raster& picture, PatchMesh patches) {
-  VectorImage image;
-  image.width = picture.width;
-  image.height = picture.height;
-  image.layers.emplace_back().patches = std::move(patches);
-  return image;
-}
-
 bool is_lattice(const Quadrangulation& quads) {
   return quads.fallback || quads.scale.along_x.data.empty();
-}
-
-FitOptions draft_fit(FitOptions fit) {
-  fit.tolerance = std::max(fit.tolerance, kDraftTolerance);
-  return fit;
 }
 
 /// What a rough fit to the mesh shows at scale 1.
 Raster drawn(const QuadMesh& mesh, const Raster& shown, const FitOptions& fit,
              const RunContext& context) {
-  return render(picture_of(shown, fit_patches(mesh, shown, draft_fit(fit), context)), {}, context);
+  PatchMesh patches = fit_patches(mesh, shown, draft_options(fit), context);
+  return render(single_layer(std::move(patches), shown.width, shown.height), {}, context);
 }
 
 /// Tears the chains of feature edges that are worth it; returns the number of candidates.
@@ -113,7 +99,7 @@ Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
   clock.finish("patches");
   const bool is_last_fit = options.optimize.rounds == 0 || options.fit.method == FitMethod::bessel;
   FitReport fit =
-      fit_colors(patches, shown, is_last_fit ? options.fit : draft_fit(options.fit), recorded);
+      fit_colors(patches, shown, is_last_fit ? options.fit : draft_options(options.fit), recorded);
   clock.finish("colours", {{"iterations", fit.iterations}});
   const OptimizeReport optimized =
       optimize_vertices(patches, shown, options.optimize, options.fit, recorded);
@@ -128,7 +114,7 @@ Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
   result.report.fit = fit;
   result.report.optimize = optimized;
   result.report.stages = std::move(stages);
-  result.image = picture_of(picture, std::move(patches));
+  result.image = single_layer(std::move(patches), picture.width, picture.height);
   return result;
 }
 

@@ -30,6 +30,13 @@ struct FitOptions {
   int max_iterations = 200;
 };
 
+/// Throws Error{invalid_argument} for options outside their ranges, as what takes them does.
+void check_options(const FitOptions& options);
+
+/// The same options with a tolerance of at least 1e-2, for fits that are only compared with each
+/// other or made again.
+FitOptions draft_options(FitOptions options);
+
 struct FitReport {
   int iterations = 0;   ///< of the conjugate gradients; 0 for bessel
   double residual = 0;  ///< relative, at the end

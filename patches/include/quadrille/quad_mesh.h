@@ -80,6 +80,12 @@ class QuadMesh {
   void order_fans();
 };
 
+/// The quads that touch one of the vertices, ascending.
+std::vector<int> quads_at(const QuadMesh& mesh, std::span<const int> vertices);
+
+/// The vertices of the quads, ascending.
+std::vector<int> corners_of(const QuadMesh& mesh, std::span<const int> quads);
+
 /// Regular means valence 4 inside and valence 3 on the border; the four border vertices of valence
 /// 2 (a rectangle's corners) are regular too.
 int count_irregular_vertices(const QuadMesh& mesh);

@@ -24,6 +24,9 @@ struct TearOptions {
   double price = 6;
 };
 
+/// Throws Error{invalid_argument} for options outside their ranges, as judge_tears() does.
+void check_options(const TearOptions& options);
+
 /// The chains of feature edges inside the mesh: they end where not exactly two feature edges meet,
 /// or where these turn by more than 45 degrees. Each lists its edges in order; every feature edge
 /// is in one chain.

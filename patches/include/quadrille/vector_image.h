@@ -29,4 +29,7 @@ struct VectorImage {
   bool opaque() const;
 };
 
+/// The patches alone, untransformed.
+VectorImage single_layer(PatchMesh patches, double width, double height);
+
 }  // namespace quadrille

@@ -30,9 +30,6 @@ struct CrossFieldPhase {
 /// A cross per working pixel: the angle modulo pi/2 as the unit-modulus number z = e^{4 i theta}.
 struct CrossField {
   FieldGrid<std::complex<float>> z;
-  /// |z| after one more smoothing of the final field, in [0, 1]: low near singularities and where
-  /// features contradict each other.
-  FieldGrid<float> confidence;
   /// In the order of the computation; the last one is this field.
   std::vector<CrossFieldPhase> phases;
 
