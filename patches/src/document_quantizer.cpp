@@ -224,6 +224,20 @@ float round_colors(Rounded& patches, double wished) {
   return color_step(n);
 }
 
+SteppedPatches rounded(const PatchMesh& patches, double width, double height,
+                       const StepChoice& choice) {
+  QuantizationSteps steps;
+  const auto result = round_positions(patches, width, height, choice, steps.position_exponent);
+  result->fit_colors();
+  if (choice.color) {
+    steps.color = *choice.color;
+    result->round_colors(steps.color);
+  } else {
+    steps.color = round_colors(*result, choice.error);
+  }
+  return {result->take(), steps};
+}
+
 }  // namespace
 
 QuantizationSteps StepChoice::finest() const {
@@ -233,16 +247,15 @@ QuantizationSteps StepChoice::finest() const {
 SteppedPatches quantize(const PatchMesh& patches, double width, double height,
                         const StepChoice& choice) {
   if (auto stored = as_stored(patches, width, height, choice)) return *std::move(stored);
-  QuantizationSteps steps;
-  const auto rounded = round_positions(patches, width, height, choice, steps.position_exponent);
-  rounded->fit_colors();
-  if (choice.color) {
-    steps.color = *choice.color;
-    rounded->round_colors(steps.color);
-  } else {
-    steps.color = round_colors(*rounded, choice.error);
+  SteppedPatches result = rounded(patches, width, height, choice);
+  // All integers may be even; a document says so in the way in which it will be saved again.
+  for (;;) {
+    const PositionGrid grid(result.steps.position_exponent, width, height);
+    auto again =
+        as_stored(dequantize(result.patches, grid, result.steps.color), width, height, choice);
+    if (!again || again->steps == result.steps) return result;
+    result = *std::move(again);
   }
-  return {rounded->take(), steps};
 }
 
 }  // namespace quadrille

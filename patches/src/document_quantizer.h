@@ -10,6 +10,7 @@ namespace quadrille {
 struct QuantizationSteps {
   int position_exponent = 0;  ///< positions are multiples of 2^-exponent pixels
   float color = 0;            ///< see ColorSteps; 1 is white
+  bool operator==(const QuantizationSteps&) const = default;
 };
 
 /// Steps that are given, or that the picture decides.
