@@ -60,7 +60,7 @@ int rounded(double x) {
   return static_cast<int>(std::floor(std::clamp<double>(x, -kLargestNumber, kLargestNumber) + 0.5));
 }
 
-/// Magnitudes in 1/8 in classes of a third of an octave or less.
+/// Eighths in classes of a quarter of an octave.
 int size_class(double magnitude, int classes) {
   const auto m = static_cast<unsigned>(std::clamp<double>(magnitude * 8, 0, 1 << 28));
   const int octave = std::bit_width(m);
@@ -251,7 +251,7 @@ class ColorCoder {
     if (kind == kAlongY) sizes[5] = std::abs(errors[w][kAlongX]);
     if (kind == kTwist) sizes[5] = std::abs(errors[w][kAlongX]) + std::abs(errors[w][kAlongY]);
     sizes[6] = 1;
-    sizes[7] = steps_(0, 0, kValue) / steps_(w, 0, kValue);
+    sizes[7] = 1 / steps_.scale(w);
     return sizes;
   }
 };

@@ -31,7 +31,7 @@ class Mixer {
     value = coder.decide(probability, value);
     const std::int64_t error = (value ? 65536 : 0) - static_cast<std::int64_t>(probability);
     for (int i = 0; i < kModels; ++i) {
-      const std::int64_t weight = weights_[i] + error * logits[i] * kRate / (1 << 18);
+      const std::int64_t weight = weights_[i] + error * logits[i] / kOne;
       weights_[i] = static_cast<std::int32_t>(std::clamp(weight, -kMostWeight, kMostWeight));
       models[i]->learn(value);
     }
@@ -41,7 +41,6 @@ class Mixer {
  private:
   static constexpr std::int64_t kOne = 65536;
   static constexpr std::int64_t kMostWeight = 256 * kOne;
-  static constexpr int kRate = 4;
   std::array<std::int32_t, kModels> weights_ = [] {
     std::array<std::int32_t, kModels> weights;
     weights.fill(static_cast<std::int32_t>(kOne * 5 / 4 / kModels));

@@ -99,6 +99,8 @@ class ColorSteps {
   double operator()(int wedge, int channel, WedgeKind kind) const {
     return scale_[wedge] * of_[channel][kind];
   }
+  /// 1 for a wedge of mean area.
+  double scale(int wedge) const { return scale_[wedge]; }
 
  private:
   std::vector<double> scale_;
