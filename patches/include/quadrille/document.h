@@ -19,7 +19,7 @@ namespace quadrille {
 /// what it unpacks to, which is below 2 GiB and 32 KiB for each byte of the file.
 
 enum class DocumentEncoding {
-  /// Integers, about 1/13 of the size. Vertices and quads are renumbered once; loading and saving
+  /// Integers, about 1/15 of the size. Vertices and quads are renumbered once; loading and saving
   /// again changes nothing any more.
   quantized,
   /// Every number bit for bit, in its place.
