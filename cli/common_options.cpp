@@ -130,7 +130,7 @@ void declare_output(CLI::App& parser, std::filesystem::path& output) {
 void declare_document_options(CLI::App& parser, DocumentOptions& options) {
   parser.add_flag_callback(
       "--lossless", [&] { options.encoding = DocumentEncoding::lossless; },
-      "write .quad documents bit for bit, some 13 times larger");
+      "write .quad documents bit for bit, some 15 times larger");
 }
 
 CLI::Validator positive_number() {

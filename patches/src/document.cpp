@@ -30,14 +30,20 @@ void check_storable(const VectorImage& image) {
   }
 }
 
-QuantizationSteps steps_of(const DocumentOptions& options) {
-  if (options.position_bits < -8 || options.position_bits > 16) {
+StepChoice steps_of(const DocumentOptions& options) {
+  if (options.position_bits && (*options.position_bits < -8 || *options.position_bits > 16)) {
     throw Error(ErrorCode::invalid_argument, "position_bits of a document must be from -8 to 16");
   }
-  if (!(options.color_step >= 0x1p-8 && options.color_step <= 64)) {
+  const auto is_step = [](double step) { return step >= 0x1p-8 && step <= 64; };
+  if (options.color_step && !is_step(*options.color_step)) {
     throw Error(ErrorCode::invalid_argument, "color_step of a document must be from 2^-8 to 64");
   }
-  return {options.position_bits, static_cast<float>(options.color_step / 255)};
+  if (!is_step(options.error)) {
+    throw Error(ErrorCode::invalid_argument, "error of a document must be from 2^-8 to 64");
+  }
+  StepChoice choice{options.position_bits, {}, options.error / 255};
+  if (options.color_step) choice.color = static_cast<float>(*options.color_step / 255);
+  return choice;
 }
 
 /// Stores the layers of one image and keeps account of what the container must know.
@@ -74,7 +80,7 @@ class LayerWriter {
   FlatBufferBuilder& builder_;
   const VectorImage& image_;
   bool lossless_;
-  QuantizationSteps steps_;
+  StepChoice steps_;
   std::uint32_t version_ = kLosslessVersion;
   std::uint64_t quads_ = 0;
 };

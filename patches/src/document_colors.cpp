@@ -5,56 +5,43 @@
 #include <bit>
 #include <cmath>
 
+#include "document_mixing.h"
 #include "document_prediction.h"
 
 namespace quadrille {
 namespace {
 
-/// One channel's prediction, plus shares of the errors of the channels before.
-constexpr int kTerms = Prediction::kTerms + 2;
-using Terms = std::array<double, kTerms>;
-using Weights = std::array<int, kTerms>;  ///< in 1 / kWeightUnit
+/// Weighted sums whose weights are multiples of 1 / 64.
+template <int n>
+using Terms = std::array<double, n>;
+template <int n>
+using Weights = std::array<int, n>;
 constexpr double kWeightUnit = 64;
 constexpr int kLargestWeight = 255;
 constexpr int kLargestNumber = 1 << 25;
 
-int rounded(double x) {
-  return static_cast<int>(std::floor(std::clamp<double>(x, -kLargestNumber, kLargestNumber) + 0.5));
+template <int n>
+double weighted(const Terms<n>& terms, const Weights<n>& weights) {
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += terms[i] * weights[i] / kWeightUnit;
+  return sum;
 }
-
-/// Magnitudes in classes of half an octave.
-int size_class(int magnitude, int classes) {
-  const auto m = static_cast<unsigned>(magnitude);
-  const int octave = std::bit_width(m);
-  const int c = octave < 2 ? octave : 2 * octave - 2 + static_cast<int>(m >> (octave - 2) & 1);
-  return std::min(c, classes - 1);
-}
-
-struct Guess {
-  double base = 0;
-  Terms terms{};
-
-  double with(const Weights& weights) const {
-    double guess = base;
-    for (int i = 0; i < kTerms; ++i) guess += terms[i] * weights[i] / kWeightUnit;
-    return guess;
-  }
-};
 
 /// Least squares weights of terms, from their normal equations.
+template <int n>
 class WeightFit {
  public:
-  void add(const Terms& terms, double target) {
-    const Eigen::Map<const Eigen::Matrix<double, kTerms, 1>> t(terms.data());
-    normal_ += t * t.transpose();
-    right_ += t * target;
+  void add(const Terms<n>& terms, double target, double importance) {
+    const Eigen::Map<const Eigen::Matrix<double, n, 1>> t(terms.data());
+    normal_ += importance * t * t.transpose();
+    right_ += importance * target * t;
   }
-  Weights weights() const {
-    Eigen::Matrix<double, kTerms, kTerms> n = normal_;
-    n.diagonal().array() += 1e-9 + 1e-6 * normal_.trace();
-    const Eigen::Matrix<double, kTerms, 1> w = n.ldlt().solve(right_);
-    Weights rounded_weights{};
-    for (int i = 0; i < kTerms; ++i) {
+  Weights<n> weights() const {
+    Eigen::Matrix<double, n, n> normal = normal_;
+    normal.diagonal().array() += 1e-9 + 1e-6 * normal_.trace();
+    const Eigen::Matrix<double, n, 1> w = normal.ldlt().solve(right_);
+    Weights<n> rounded_weights{};
+    for (int i = 0; i < n; ++i) {
       const double x = w[i] * kWeightUnit;
       if (std::isfinite(x)) {
         rounded_weights[i] = static_cast<int>(
@@ -65,17 +52,30 @@ class WeightFit {
   }
 
  private:
-  Eigen::Matrix<double, kTerms, kTerms> normal_ = Eigen::Matrix<double, kTerms, kTerms>::Zero();
-  Eigen::Matrix<double, kTerms, 1> right_ = Eigen::Matrix<double, kTerms, 1>::Zero();
+  Eigen::Matrix<double, n, n> normal_ = Eigen::Matrix<double, n, n>::Zero();
+  Eigen::Matrix<double, n, 1> right_ = Eigen::Matrix<double, n, 1>::Zero();
 };
+
+int rounded(double x) {
+  return static_cast<int>(std::floor(std::clamp<double>(x, -kLargestNumber, kLargestNumber) + 0.5));
+}
+
+/// Eighths in classes of a quarter of an octave.
+int size_class(double magnitude, int classes) {
+  const auto m = static_cast<unsigned>(std::clamp<double>(magnitude * 8, 0, 1 << 28));
+  const int octave = std::bit_width(m);
+  const int c =
+      octave < 3 ? static_cast<int>(m) : 4 * octave - 8 + static_cast<int>(m >> (octave - 3) & 3);
+  return std::min(c, classes - 1);
+}
 
 template <class Coder>
 class ColorCoder {
  public:
   ColorCoder(Coder& coder, const PatchMesh& patches, const std::vector<ColorFrame>& frames,
-             double color_step, std::vector<WedgeCode>& codes)
+             const ColorSteps& steps, std::vector<WedgeCode>& codes)
       : coder_(coder),
-        color_step_(color_step),
+        steps_(steps),
         codes_(codes),
         mesh_(patches),
         corners_(patches),
@@ -91,13 +91,21 @@ class ColorCoder {
   }
 
  private:
-  static constexpr int kClasses = 18;
-  struct Models {
-    AdaptiveInteger of_class[kClasses];
+  /// One channel's prediction, plus shares of the errors of the channels before.
+  static constexpr int kTerms = Prediction::kTerms + 2;
+  static constexpr int kSizes = 8;
+  static constexpr int kClasses = 48;
+  using Models = MixedInteger<3>;
+  struct Guess {
+    double base = 0;
+    Terms<kTerms> terms{};
+    double with(const Weights<kTerms>& weights) const {
+      return base + weighted<kTerms>(terms, weights);
+    }
   };
 
   Coder& coder_;
-  double color_step_;
+  const ColorSteps& steps_;
   std::vector<WedgeCode>& codes_;
   const PatchMesh& mesh_;
   WedgeCorners corners_;
@@ -106,38 +114,86 @@ class ColorCoder {
   AdaptiveInteger weight_;
 
   double number(int w, int c, WedgeKind kind) const {
-    return codes_[w][c][kind] * color_step_of(c, kind, color_step_);
+    return codes_[w][c][kind] * steps_(w, c, kind);
   }
 
   /// A kind that both axes share comes as kAlongX.
   void code_kind(int c, WedgeKind first) {
     const bool both = first == kAlongX;
     const int count = static_cast<int>(codes_.size());
-    Weights weights{};
+    Weights<kTerms> weights{};
+    Weights<kSizes> size_weights{};
     std::vector<Guess> guesses;  // of the encoder, which knows everything from the start
     if constexpr (!Coder::kDecodes) {
-      WeightFit fit;
       for (int w = 0; w < count; ++w) {
         for (int kind = first; kind <= first + both; ++kind) {
-          const auto k = static_cast<WedgeKind>(kind);
-          guesses.push_back(guess(w, c, k));
-          fit.add(guesses.back().terms, number(w, c, k) - guesses.back().base);
+          guesses.push_back(guess(w, c, static_cast<WedgeKind>(kind)));
         }
         learn(w, c, first, both);
       }
-      weights = fit.weights();
+      weights = best_weights(c, first, both, guesses);
+      size_weights = best_size_weights(c, first, both);
     }
     for (int& weight : weights) weight = weight_.code(coder_, weight);
-    Models models[2];
+    for (int& weight : size_weights) weight = weight_.code(coder_, weight);
+    Models models({kClasses, kClasses, kClasses});
     std::size_t next = 0;
     for (int w = 0; w < count; ++w) {
       for (int kind = first; kind <= first + both; ++kind) {
         const auto k = static_cast<WedgeKind>(kind);
         const Guess g = Coder::kDecodes ? guess(w, c, k) : guesses[next++];
-        code_number(w, c, k, g.with(weights), models[kind - first]);
+        code_number(w, c, k, g.with(weights), size_weights, models);
       }
       if constexpr (Coder::kDecodes) learn(w, c, first, both);
     }
+  }
+
+  /// Nearly those of least absolute error, by iterated weights. Leaves the errors in errors_.
+  Weights<kTerms> best_weights(int c, WedgeKind first, bool both,
+                               const std::vector<Guess>& guesses) {
+    Weights<kTerms> weights{};
+    const int count = static_cast<int>(codes_.size());
+    for (int round = 0; round < 3; ++round) {
+      WeightFit<kTerms> fit;
+      std::size_t next = 0;
+      for (int w = 0; w < count; ++w) {
+        for (int kind = first; kind <= first + both; ++kind) {
+          const auto k = static_cast<WedgeKind>(kind);
+          const Guess& g = guesses[next++];
+          const double step = steps_(w, c, k), target = number(w, c, k) - g.base;
+          const double error =
+              round == 0 ? 0 : std::abs(target - weighted<kTerms>(g.terms, weights));
+          fit.add(g.terms, target, 1 / (step * (step + error)));
+        }
+      }
+      weights = fit.weights();
+    }
+    std::size_t next = 0;
+    for (int w = 0; w < count; ++w) {
+      for (int kind = first; kind <= first + both; ++kind) {
+        const auto k = static_cast<WedgeKind>(kind);
+        errors_[c][w][k] =
+            codes_[w][c][k] - rounded(guesses[next++].with(weights) / steps_(w, c, k));
+      }
+    }
+    return weights;
+  }
+
+  Weights<kSizes> best_size_weights(int c, WedgeKind first, bool both) const {
+    Weights<kSizes> weights{};
+    for (int round = 0; round < 3; ++round) {
+      WeightFit<kSizes> fit;
+      for (int w = 0; w < static_cast<int>(codes_.size()); ++w) {
+        for (int kind = first; kind <= first + both; ++kind) {
+          const auto k = static_cast<WedgeKind>(kind);
+          const Terms<kSizes> terms = sizes_nearby(w, c, k);
+          const double size = round == 0 ? terms[0] : weighted<kSizes>(terms, weights);
+          fit.add(terms, std::abs(errors_[c][w][k]), 1 / (1 + size * size));
+        }
+      }
+      weights = fit.weights();
+    }
+    return weights;
   }
 
   void learn(int w, int c, WedgeKind first, bool both) {
@@ -150,38 +206,53 @@ class ColorCoder {
     Guess g{p.base, {}};
     std::copy(p.terms.begin(), p.terms.end(), g.terms.begin());
     for (int before = 0; before < std::min(c, 2); ++before) {
-      g.terms[Prediction::kTerms + before] =
-          errors_[before][w][kind] * color_step_of(before, kind, color_step_);
+      g.terms[Prediction::kTerms + before] = errors_[before][w][kind] * steps_(w, before, kind);
     }
     return g;
   }
 
-  void code_number(int w, int c, WedgeKind kind, double guess, Models& models) {
-    const int expected = rounded(guess / color_step_of(c, kind, color_step_));
+  void code_number(int w, int c, WedgeKind kind, double guess, const Weights<kSizes>& size_weights,
+                   Models& models) {
+    const int expected = rounded(guess / steps_(w, c, kind));
     int& number = codes_[w][c][kind];
-    AdaptiveInteger& model = models.of_class[size_class(activity(w, c, kind), kClasses)];
-    number = expected + model.code(coder_, number - expected);
+    const Terms<kSizes> sizes = sizes_nearby(w, c, kind);
+    const std::array<int, 3> contexts = {
+        size_class(weighted<kSizes>(sizes, size_weights), kClasses),
+        size_class(sizes[0] + sizes[1], kClasses),
+        size_class(sizes[2] + sizes[3] + sizes[4] + sizes[5], kClasses)};
+    number = expected + models.code(coder_, contexts, number - expected);
     if (std::abs(number) > kLargestNumber) coder_.refuse("a colour is out of range");
     errors_[c][w][kind] = number - expected;
   }
 
-  /// How large the error is likely to be.
-  int activity(int w, int c, WedgeKind kind) const {
+  /// Magnitudes, in steps, of errors that tell how large the next one is likely to be.
+  Terms<kSizes> sizes_nearby(int w, int c, WedgeKind kind) const {
     const auto& errors = errors_[c];
-    long long near = 0, count = 0;
+    Terms<kSizes> sizes{};
+    int side_count = 0, across_count = 0;
+    const auto add = [&](int g, double& sum, int& count) {
+      const int other = mesh_.wedge_of_corner[g];
+      if (other >= w) return;
+      sum += std::abs(errors[other][kind]) * steps_(other, c, kind);
+      ++count;
+    };
     for (const int h : corners_[w]) {
-      for (const int g :
-           {QuadMesh::next(h), QuadMesh::prev(h), QuadMesh::next(QuadMesh::next(h))}) {
-        const int other = mesh_.wedge_of_corner[g];
-        if (other >= w) continue;
-        near += std::abs(errors[other][kind]);
-        ++count;
-      }
+      add(QuadMesh::next(h), sizes[0], side_count);
+      add(QuadMesh::prev(h), sizes[0], side_count);
+      add(QuadMesh::next(QuadMesh::next(h)), sizes[1], across_count);
     }
-    long long sum = count > 0 ? 4 * near / count : 4 * std::abs(errors[w][kind]);
-    if (c > 0 && c < 3) sum += std::abs(errors_[0][w][kind]);
-    if (kind != kValue) sum += std::abs(errors[w][kValue]);
-    return static_cast<int>(std::min<long long>(sum, 1 << 28));
+    const double step = steps_(w, c, kind);
+    sizes[0] /= std::max(side_count, 1) * step;
+    sizes[1] /= std::max(across_count, 1) * step;
+    for (int before = 0; before < std::min(c, 2); ++before) {
+      sizes[2 + before] = std::abs(errors_[before][w][kind]);
+    }
+    if (kind != kValue) sizes[4] = std::abs(errors[w][kValue]);
+    if (kind == kAlongY) sizes[5] = std::abs(errors[w][kAlongX]);
+    if (kind == kTwist) sizes[5] = std::abs(errors[w][kAlongX]) + std::abs(errors[w][kAlongY]);
+    sizes[6] = 1;
+    sizes[7] = 1 / steps_.scale(w);
+    return sizes;
   }
 };
 
@@ -190,7 +261,8 @@ void code_colors(Coder& coder, QuantizedPatches& patches, const PositionGrid& gr
                  double color_step) {
   const PatchMesh known = geometry_of(patches);
   const std::vector<ColorFrame> frames = color_frames(known.mesh, grid.step());
-  ColorCoder<Coder>(coder, known, frames, color_step, patches.wedges)
+  const ColorSteps steps(known.mesh, known.wedge_of_corner, known.wedges.size(), color_step);
+  ColorCoder<Coder>(coder, known, frames, steps, patches.wedges)
       .code(patches.opaque ? 3 : kChannels);
 }
 

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 
-#include "document_rounding.h"
-#include "document_shapes.h"
-#include "quadrille/patch_geometry.h"
-
 namespace quadrille {
 namespace {
 
@@ -18,40 +14,19 @@ double channel_step(int channel) {
   return kSteps[channel];
 }
 
-LocalColors local_colors(const Wedge& w, const ColorFrame& frame, const Eigen::Vector2d& moved) {
-  const Eigen::Array4d dx = channels_of(w.dx), dy = channels_of(w.dy);
-  LocalColors c;
-  c[kValue] = channels_of(w.value) + dx * moved.x() + dy * moved.y();
-  c[kAlongX] = dx * frame.root(0, 0) + dy * frame.root(0, 1);
-  c[kAlongY] = dx * frame.root(1, 0) + dy * frame.root(1, 1);
-  c[kTwist] = channels_of(w.twist) * frame.area;
-  return c;
-}
-
-Wedge wedge_of(const WedgeCode& code, const ColorFrame& frame, double step, bool opaque) {
+Wedge wedge_of(const WedgeCode& code, const ColorFrame& frame, const ColorSteps& steps, int w,
+               bool opaque) {
   std::array<Eigen::Array4d, 4> kinds;
   for (int kind = 0; kind < 4; ++kind) {
     for (int c = 0; c < kChannels; ++c) {
-      kinds[kind][c] = code[c][kind] * color_step_of(c, static_cast<WedgeKind>(kind), step);
+      kinds[kind][c] = code[c][kind] * steps(w, c, static_cast<WedgeKind>(kind));
     }
   }
   if (opaque) kinds[kValue][kAlpha] = 1;
   const Eigen::Matrix2d& i = frame.inverse;
-  Wedge w;
-  w.value = color_of(kinds[kValue]);
-  w.dx = color_of(kinds[kAlongX] * i(0, 0) + kinds[kAlongY] * i(0, 1));
-  w.dy = color_of(kinds[kAlongX] * i(1, 0) + kinds[kAlongY] * i(1, 1));
-  w.twist = color_of(kinds[kTwist] / frame.area);
-  return w;
-}
-
-/// A corner of each wedge.
-std::vector<int> first_corners(const std::vector<int>& wedge_of_corner, std::size_t wedge_count) {
-  std::vector<int> corner(wedge_count, 0);
-  for (std::size_t h = wedge_of_corner.size(); h-- > 0;) {
-    corner[wedge_of_corner[h]] = static_cast<int>(h);
-  }
-  return corner;
+  return {color_of(kinds[kValue]), color_of(kinds[kAlongX] * i(0, 0) + kinds[kAlongY] * i(0, 1)),
+          color_of(kinds[kAlongX] * i(1, 0) + kinds[kAlongY] * i(1, 1)),
+          color_of(kinds[kTwist] / frame.area)};
 }
 
 }  // namespace
@@ -92,6 +67,16 @@ std::vector<ColorFrame> color_frames(const QuadMesh& mesh, double position_step)
   return frames;
 }
 
+LocalColors local_colors(const Wedge& w, const ColorFrame& frame, const Eigen::Vector2d& moved) {
+  const Eigen::Array4d dx = channels_of(w.dx), dy = channels_of(w.dy);
+  LocalColors c;
+  c[kValue] = channels_of(w.value) + dx * moved.x() + dy * moved.y();
+  c[kAlongX] = dx * frame.root(0, 0) + dy * frame.root(0, 1);
+  c[kAlongY] = dx * frame.root(1, 0) + dy * frame.root(1, 1);
+  c[kTwist] = channels_of(w.twist) * frame.area;
+  return c;
+}
+
 Eigen::Array4d channels_of(const Color& c) {
   const double r = c[0], g = c[1], b = c[2];
   return {(r + g + b) / 3, r - b, g - (r + b) / 2, c[3]};
@@ -103,11 +88,31 @@ Color color_of(const Eigen::Array4d& c) {
           static_cast<float>(between - c[1] / 2), static_cast<float>(c[3])};
 }
 
-double color_step_of(int channel, WedgeKind kind, double step) {
+double quad_area(const QuadMesh& mesh, int q) {
+  const auto& c = mesh.quads()[q];
+  const Eigen::Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
+  const Eigen::Vector2d e = mesh.vertices[c[3]] - mesh.vertices[c[1]];
+  return std::abs(d.x() * e.y() - d.y() * e.x()) / 2;
+}
+
+ColorSteps::ColorSteps(const QuadMesh& mesh, const std::vector<int>& wedge_of_corner,
+                       std::size_t wedge_count, double step)
+    : scale_(wedge_count, 0) {
   // Inverse norms of the Hermite basis: the blending functions of values have the mean square
   // 26/35 per axis, those of derivatives 2/105.
   constexpr std::array<double, 4> kKind = {1, 6.25, 6.25, 39};
-  return step * channel_step(channel) * kKind[kind];
+  for (int c = 0; c < kChannels; ++c) {
+    for (int kind = 0; kind < 4; ++kind) of_[c][kind] = step * channel_step(c) * kKind[kind];
+  }
+  constexpr double kLeastScale = 0.25, kMostScale = 4;
+  double total = 0;
+  for (int q = 0; q < mesh.quad_count(); ++q) {
+    const double area = quad_area(mesh, q);
+    for (int k = 0; k < 4; ++k) scale_[wedge_of_corner[4 * q + k]] += area;
+    total += 4 * area;
+  }
+  const double mean = total / static_cast<double>(wedge_count);
+  for (double& scale : scale_) scale = std::clamp(mean / scale, kLeastScale, kMostScale);
 }
 
 bool can_quantize(const PatchMesh& patches, const PositionGrid& grid, double color_step) {
@@ -122,48 +127,18 @@ bool can_quantize(const PatchMesh& patches, const PositionGrid& grid, double col
     }
   }
   const std::vector<ColorFrame> frames = color_frames(patches.mesh, grid.step());
+  const ColorSteps steps(patches.mesh, patches.wedge_of_corner, patches.wedges.size(), color_step);
   for (int h = 0; h < patches.mesh.halfedge_count(); ++h) {
     const LocalColors local = local_colors(patches.wedges[patches.wedge_of_corner[h]],
                                            frames[patches.mesh.origin(h)], {grid.step(), 0});
     for (int kind = 0; kind < 4; ++kind) {
       for (int c = 0; c < kChannels; ++c) {
-        const double steps = color_step_of(c, static_cast<WedgeKind>(kind), color_step);
-        if (!fits(local[kind][c] / steps)) return false;
+        const double step = steps(patches.wedge_of_corner[h], c, static_cast<WedgeKind>(kind));
+        if (!fits(local[kind][c] / step)) return false;
       }
     }
   }
   return true;
-}
-
-QuantizedPatches quantize(const PatchMesh& patches, const PositionGrid& grid, double color_step) {
-  QuantizedPatches out;
-  out.mesh = patches.mesh;
-  out.opaque = patches.opaque;
-  out.points.resize(patches.mesh.vertices.size());
-  for (std::size_t v = 0; v < out.points.size(); ++v) {
-    for (int axis = 0; axis < 2; ++axis) {
-      out.points[v][axis] = grid.nearest(axis, patches.mesh.vertices[v][axis]);
-    }
-    out.mesh.vertices[v] = grid.at(out.points[v]);
-  }
-  out.wedge_of_corner = patches.wedge_of_corner;
-  out.wedges.resize(patches.wedges.size());
-  quantize_tangents(patches, grid.step(), out);
-
-  const PatchMesh moved = geometry_of(out);
-  const std::vector<ColorFrame> frames = color_frames(moved.mesh, grid.step());
-  const std::vector<int> corners = first_corners(patches.wedge_of_corner, patches.wedges.size());
-  std::vector<LocalColors> exact;
-  for (std::size_t w = 0; w < patches.wedges.size(); ++w) {
-    const int v = out.mesh.origin(corners[w]);
-    exact.push_back(local_colors(patches.wedges[w], frames[v],
-                                 moved.mesh.vertices[v] - patches.mesh.vertices[v]));
-    if (out.opaque) {
-      for (Eigen::Array4d& kind : exact.back()) kind[kAlpha] = 0;
-    }
-  }
-  out.wedges = round_colors(moved, frames, exact, color_step);
-  return out;
 }
 
 PatchMesh geometry_of(const QuantizedPatches& quantized) {
@@ -180,11 +155,11 @@ PatchMesh dequantize(const QuantizedPatches& quantized, const PositionGrid& grid
                      double color_step) {
   PatchMesh patches = geometry_of(quantized);
   const std::vector<ColorFrame> frames = color_frames(patches.mesh, grid.step());
-  const std::vector<int> corners =
-      first_corners(quantized.wedge_of_corner, quantized.wedges.size());
-  for (std::size_t w = 0; w < quantized.wedges.size(); ++w) {
-    patches.wedges[w] = wedge_of(quantized.wedges[w], frames[patches.mesh.origin(corners[w])],
-                                 color_step, quantized.opaque);
+  const ColorSteps steps(patches.mesh, patches.wedge_of_corner, patches.wedges.size(), color_step);
+  for (int h = 0; h < patches.mesh.halfedge_count(); ++h) {
+    const int w = quantized.wedge_of_corner[h];
+    patches.wedges[w] =
+        wedge_of(quantized.wedges[w], frames[patches.mesh.origin(h)], steps, w, quantized.opaque);
   }
   return patches;
 }

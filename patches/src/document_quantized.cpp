@@ -59,7 +59,7 @@ std::span<const std::uint8_t> bytes_of(const flatbuffers::Vector<std::uint8_t>& 
 }  // namespace
 
 bool can_store_quantized(const PatchMesh& patches, double width, double height,
-                         const QuantizationSteps& steps) {
+                         const StepChoice& choice) {
   const QuadMesh& mesh = patches.mesh;
   if (patches.edge_tangents.size() != static_cast<std::size_t>(mesh.edge_count()) ||
       mesh.edge_flags.size() != static_cast<std::size_t>(mesh.edge_count()) ||
@@ -67,17 +67,18 @@ bool can_store_quantized(const PatchMesh& patches, double width, double height,
     return false;
   }
   return can_code_connectivity(mesh) && wedges_follow_tears(patches) &&
-         can_quantize(patches, PositionGrid(steps.position_exponent, width, height), steps.color);
+         can_quantize(patches, PositionGrid(choice.finest().position_exponent, width, height),
+                      choice.finest().color);
 }
 
 flatbuffers::Offset<fbs::QuantizedPatches> store_quantized(flatbuffers::FlatBufferBuilder& builder,
                                                            const PatchMesh& patches, double width,
                                                            double height,
-                                                           const QuantizationSteps& steps) {
-  const PositionGrid grid(steps.position_exponent, width, height);
+                                                           const StepChoice& choice) {
   RangeEncoder connectivity, geometry, colors;
   const OrderedMesh ordered = encode_connectivity(connectivity, patches.mesh);
-  const QuantizedPatches quantized = quantize(renumbered(patches, ordered), grid, steps.color);
+  const auto [quantized, steps] = quantize(renumbered(patches, ordered), width, height, choice);
+  const PositionGrid grid(steps.position_exponent, width, height);
   encode_geometry(geometry, quantized, grid);
   encode_colors(colors, quantized, grid, steps.color);
   const auto stored_connectivity = finished(builder, connectivity);

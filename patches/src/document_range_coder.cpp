@@ -29,15 +29,14 @@ void AdaptiveBit::learn(bool value) {
   if (seen_ < kMemory) ++seen_;
 }
 
-bool RangeEncoder::bit(AdaptiveBit& model, bool value) {
-  const std::uint32_t bound = (range_ >> 16) * model.probability();
+bool RangeEncoder::decide(std::uint32_t probability, bool value) {
+  const std::uint32_t bound = (range_ >> 16) * probability;
   if (value) {
     range_ = bound;
   } else {
     low_ += bound;
     range_ -= bound;
   }
-  model.learn(value);
   while (range_ < kLowestRange) {
     range_ <<= 8;
     shift_out();
@@ -84,8 +83,8 @@ RangeDecoder::RangeDecoder(std::span<const std::uint8_t> bytes, const std::strin
   for (int i = 0; i < 5; ++i) code_ = code_ << 8 | next_byte();  // the first one is always 0
 }
 
-bool RangeDecoder::bit(AdaptiveBit& model, bool) {
-  const std::uint32_t bound = (range_ >> 16) * model.probability();
+bool RangeDecoder::decide(std::uint32_t probability, bool) {
+  const std::uint32_t bound = (range_ >> 16) * probability;
   const bool value = code_ < bound;
   if (value) {
     range_ = bound;
@@ -93,7 +92,6 @@ bool RangeDecoder::bit(AdaptiveBit& model, bool) {
     code_ -= bound;
     range_ -= bound;
   }
-  model.learn(value);
   while (range_ < kLowestRange) {
     range_ <<= 8;
     code_ = code_ << 8 | next_byte();

@@ -28,7 +28,13 @@ class AdaptiveBit {
 class RangeEncoder {
  public:
   static constexpr bool kDecodes = false;
-  bool bit(AdaptiveBit& model, bool value);
+  /// A decision that is true with `probability` / 65536, which is never 0 or 1.
+  bool decide(std::uint32_t probability, bool value);
+  bool bit(AdaptiveBit& model, bool value) {
+    decide(model.probability(), value);
+    model.learn(value);
+    return value;
+  }
   /// `count` bits, at most 16, that are as often true as false.
   std::uint32_t even_bits(std::uint32_t value, int count);
   [[noreturn]] void refuse(const char* why) const;
@@ -50,7 +56,12 @@ class RangeDecoder {
   static constexpr bool kDecodes = true;
   /// `name` is used in messages; both must outlive the decoder.
   RangeDecoder(std::span<const std::uint8_t> bytes, const std::string& name);
-  bool bit(AdaptiveBit& model, bool = false);
+  bool decide(std::uint32_t probability, bool = false);
+  bool bit(AdaptiveBit& model, bool = false) {
+    const bool value = decide(model.probability());
+    model.learn(value);
+    return value;
+  }
   std::uint32_t even_bits(std::uint32_t, int count);
   /// Throws Error{io_failure}: the document is damaged.
   [[noreturn]] void refuse(const char* why) const;

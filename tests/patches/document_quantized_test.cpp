@@ -77,6 +77,58 @@ TEST(QuantizedDocument, SavingAgainGivesTheSameBytes) {
   }
 }
 
+TEST(QuantizedDocument, SavingAgainGivesTheSameBytesWithStepsOfItsChoice) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const auto bytes = to_document(irregular_image(seed, seed % 2, seed % 3));
+    EXPECT_EQ(to_document(from_document(bytes)), bytes) << seed;
+  }
+}
+
+TEST(QuantizedDocument, SavingAgainGivesTheSameBytesForOneColor) {
+  for (int level = 0; level < 32; ++level) {
+    PatchMesh patches = straight_patches(irregular_mesh(3, 2, 40, 30, 7));
+    for (Wedge& w : patches.wedges) w.value << level / 255.f, level / 99.f, 0.5f, 1.f;
+    const auto bytes = to_document(single_layer(std::move(patches), 40, 30));
+    EXPECT_EQ(to_document(from_document(bytes)), bytes) << level;
+  }
+}
+
+TEST(QuantizedDocument, TheErrorIsTheWishedOne) {
+  for (const double wished : {0.1, 0.3, 0.5}) {
+    for (unsigned seed = 0; seed < 6; ++seed) {
+      PatchMesh patches = straight_patches(testing::irregular_mesh(5, 4, 101.5, 80, seed));
+      set_bessel_tangents(patches);
+      guard_folds(patches);
+      set_random_colors(patches, seed, true);
+      const VectorImage image = single_layer(std::move(patches), 101.5, 80);
+      const VectorImage loaded = reloaded(image, {.error = wished});
+      const Raster a = render(image), b = render(loaded);
+      double sum = 0;
+      for (std::size_t i = 0; i < a.data.size(); ++i) sum += std::abs(a.data[i] - b.data[i]);
+      const double error = 255 * sum / static_cast<double>(a.data.size());
+      EXPECT_LT(error, 1.1 * wished) << seed;
+      EXPECT_GT(error, 0.6 * wished) << seed;
+    }
+  }
+}
+
+TEST(QuantizedDocument, RoundedVerticesHardlyChangeASmoothPicture) {
+  PatchMesh patches = straight_patches(testing::lattice(8, 6, 81, 61));
+  for (int v = 0; v < patches.mesh.vertex_count(); ++v) {
+    if (patches.mesh.is_border_vertex(v)) continue;
+    patches.mesh.vertices[v] += Eigen::Vector2d(std::sin(5.0 * v), std::cos(3.0 * v));
+  }
+  patches = straight_patches(patches.mesh);
+  for (int v = 0; v < patches.mesh.vertex_count(); ++v) {
+    const auto x = static_cast<float>(patches.mesh.vertices[v].x());
+    patches.wedges[v].value << x / 100, x / 100, x / 100, 1;
+    patches.wedges[v].dx << 0.01f, 0.01f, 0.01f, 0;
+  }
+  const VectorImage image = single_layer(std::move(patches), 81, 61);
+  const VectorImage loaded = reloaded(image, {DocumentEncoding::quantized, 1, 1 / 64.0});
+  EXPECT_LT(largest_difference(image, loaded), 0.001);
+}
+
 TEST(QuantizedDocument, SavingAgainGivesTheSameBytesForFreeTangents) {
   for (unsigned seed = 0; seed < 12; ++seed) {
     PatchMesh patches = random_patches(9, 7, 90, 70, seed);
@@ -170,6 +222,7 @@ TEST(QuantizedDocument, RefusesOptionsOutOfRange) {
   EXPECT_THROW(to_document(image, {DocumentEncoding::quantized, 17, 1}), Error);
   EXPECT_THROW(to_document(image, {DocumentEncoding::quantized, 6, 0}), Error);
   EXPECT_THROW(to_document(image, {DocumentEncoding::quantized, 6, std::nan("")}), Error);
+  EXPECT_THROW(to_document(image, {.error = 0}), Error);
 }
 
 }  // namespace

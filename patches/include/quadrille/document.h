@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ namespace quadrille {
 /// what it unpacks to, which is below 2 GiB and 32 KiB for each byte of the file.
 
 enum class DocumentEncoding {
-  /// Integers, about 1/13 of the size. Vertices and quads are renumbered once; loading and saving
+  /// Integers, about 1/15 of the size. Vertices and quads are renumbered once; loading and saving
   /// again changes nothing any more.
   quantized,
   /// Every number bit for bit, in its place.
@@ -28,11 +29,15 @@ enum class DocumentEncoding {
 struct DocumentOptions {
   DocumentEncoding encoding = DocumentEncoding::quantized;
   /// Quantised only. Positions are rounded to multiples of 2^-position_bits pixels; vertices on the
-  /// sides of the picture stay there exactly. -8 to 16.
-  int position_bits = 5;
+  /// sides of the picture stay there exactly. -8 to 16; chosen for each layer by `error` if absent.
+  std::optional<int> position_bits = {};
   /// Quantised only. Step of the colours in units of 1/255; derivatives are rounded so that they
-  /// weigh as much in the rendered picture. 2^-8 to 64.
-  double color_step = 1;
+  /// weigh as much in the rendered picture, and small patches more coarsely than large ones. 2^-8
+  /// to 64; chosen for each layer by `error` if absent.
+  std::optional<double> color_step = {};
+  /// Quantised only. Mean absolute error of a layer drawn at scale 1, in units of 1/255, that
+  /// rounding may cause, as far as the steps can be chosen. 2^-8 to 64.
+  double error = 0.295;
 };
 
 /// The same image and options give the same bytes. A layer that the quantised encoding cannot hold
