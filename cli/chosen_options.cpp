@@ -7,7 +7,7 @@
 namespace quadrille::cli {
 namespace {
 
-constexpr double kEditableShapeWeight = 0.08;
+constexpr double kEditableShapeWeight = 0.12;
 
 TearOptions::Mode tear_mode(const std::string& name) {
   using Mode = TearOptions::Mode;

@@ -49,7 +49,7 @@ void PictureMetric::measure(const PatchMesh& patches, const std::vector<ColorFra
                             int q) {
   const QuadMesh& mesh = patches.mesh;
   const auto& c = mesh.quads()[q];
-  area_[q] = quad_area(mesh, q);
+  area_[q] = std::abs(quad_area(mesh, q));
   const BicubicHermite<Eigen::Vector2d> g = patch_geometry(patches, q);
   for (int k = 0; k < 4; ++k) {
     const int h = 4 * q + k;

@@ -88,13 +88,6 @@ Color color_of(const Eigen::Array4d& c) {
           static_cast<float>(between - c[1] / 2), static_cast<float>(c[3])};
 }
 
-double quad_area(const QuadMesh& mesh, int q) {
-  const auto& c = mesh.quads()[q];
-  const Eigen::Vector2d d = mesh.vertices[c[2]] - mesh.vertices[c[0]];
-  const Eigen::Vector2d e = mesh.vertices[c[3]] - mesh.vertices[c[1]];
-  return std::abs(d.x() * e.y() - d.y() * e.x()) / 2;
-}
-
 ColorSteps::ColorSteps(const QuadMesh& mesh, const std::vector<int>& wedge_of_corner,
                        std::size_t wedge_count, double step)
     : scale_(wedge_count, 0) {
@@ -107,7 +100,7 @@ ColorSteps::ColorSteps(const QuadMesh& mesh, const std::vector<int>& wedge_of_co
   constexpr double kLeastScale = 0.25, kMostScale = 4;
   double total = 0;
   for (int q = 0; q < mesh.quad_count(); ++q) {
-    const double area = quad_area(mesh, q);
+    const double area = std::abs(quad_area(mesh, q));
     for (int k = 0; k < 4; ++k) scale_[wedge_of_corner[4 * q + k]] += area;
     total += 4 * area;
   }

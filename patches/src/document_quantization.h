@@ -82,9 +82,6 @@ std::vector<ColorFrame> color_frames(const QuadMesh& mesh, double position_step)
 Eigen::Array4d channels_of(const Color& rgba);
 Color color_of(const Eigen::Array4d& channels);
 
-/// Of the quad with straight sides.
-double quad_area(const QuadMesh& mesh, int q);
-
 /// Of a wedge that moves by `moved` along its gradient.
 LocalColors local_colors(const Wedge& w, const ColorFrame& frame, const Eigen::Vector2d& moved);
 

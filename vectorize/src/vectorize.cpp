@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "draft_mesh.h"
+#include "patch_fitting.h"
 #include "quadrille/mesh_region.h"
 #include "quadrille/patch_geometry.h"
 #include "quadrille/render.h"
@@ -93,28 +94,16 @@ Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
   StageClock clock(recorded);
   const int chains = tear_chains(quads.mesh, shown, options, recorded);
   clock.finish("tears");
-  PatchMesh patches = straight_patches(std::move(quads.mesh));
-  set_bessel_tangents(patches);
-  guard_folds(patches);
-  clock.finish("patches");
-  const bool is_last_fit = options.optimize.rounds == 0 || options.fit.method == FitMethod::bessel;
-  FitReport fit =
-      fit_colors(patches, shown, is_last_fit ? options.fit : draft_options(options.fit), recorded);
-  clock.finish("colours", {{"iterations", fit.iterations}});
-  const OptimizeReport optimized =
-      optimize_vertices(patches, shown, options.optimize, options.fit, recorded);
-  if (!is_last_fit && optimized.accepted == 0) {
-    fit = fit_colors(patches, shown, options.fit, recorded);
-  }
-  clock.finish("vertices", {{"rounds", optimized.rounds.size()}, {"accepted", optimized.accepted}});
+  FittedPatches fitted =
+      fitted_patches(std::move(quads.mesh), shown, options.fit, options.optimize, recorded);
 
   Vectorization result;
-  result.report = describe(picture, quads, patches);
+  result.report = describe(picture, quads, fitted.patches);
   result.report.chains = chains;
-  result.report.fit = fit;
-  result.report.optimize = optimized;
+  result.report.fit = fitted.fit;
+  result.report.optimize = std::move(fitted.optimized);
   result.report.stages = std::move(stages);
-  result.image = single_layer(std::move(patches), picture.width, picture.height);
+  result.image = single_layer(std::move(fitted.patches), picture.width, picture.height);
   return result;
 }
 

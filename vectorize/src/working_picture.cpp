@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
-#include "opencv_errors.h"
+#include "reduced_picture.h"
 
 namespace quadrille {
 namespace {
@@ -23,27 +22,6 @@ int working_side(int side, double edge) {
     return side;
   }
   return std::max(1, static_cast<int>(std::lround(side / factor)));
-}
-
-Raster premultiplied(const Raster& picture) {
-  Raster result = picture;
-  for (std::size_t i = 0; i < result.data.size(); i += 4) {
-    for (int c = 0; c < 3; ++c) result.data[i + c] *= result.data[i + 3];
-  }
-  return result;
-}
-
-Raster resized(const Raster& picture, int w, int h) {
-  Raster result(w, h, picture.channels);
-  const int type = CV_32FC(picture.channels);
-  const cv::Mat source(picture.height, picture.width, type,
-                       const_cast<float*>(picture.data.data()));
-  cv::Mat target(h, w, type, result.data.data());
-  const bool smaller = w < picture.width || h < picture.height;
-  with_opencv_errors([&] {
-    cv::resize(source, target, target.size(), 0, 0, smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
-  });
-  return result;
 }
 
 }  // namespace
