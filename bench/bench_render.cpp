@@ -11,7 +11,7 @@
 #include "quadrille/document.h"
 #include "quadrille/image_file.h"
 #include "quadrille/patch_geometry.h"
-#include "quadrille/render.h"
+#include "quadrille/renderer.h"
 #include "quadrille/vectorize.h"
 #include "render/cairo_mesh.h"
 
@@ -76,6 +76,22 @@ void add(const Scene& scene, const View& view, const char* method, const PixelRe
       ->MinTime(0.3);
 }
 
+/// Draws with one thread into the same 8-bit pixels, each time after `prepare`.
+template <class Prepare>
+void bench_draw(benchmark::State& state, Renderer& renderer, const RenderOptions& options,
+                const Prepare& prepare) {
+  RunContext one;
+  one.threads = 1;
+  const PixelRegion region = *options.region;
+  std::vector<std::uint32_t> pixels(std::size_t{1} * region.width * region.height);
+  renderer.draw(options, {}, {pixels.data(), region.width * 4}, one);
+  for (auto _ : state) {
+    prepare(renderer);
+    renderer.draw(options, {}, {pixels.data(), region.width * 4}, one);
+    benchmark::ClobberMemory();
+  }
+}
+
 void add_view(const Scene& scene, const View& view) {
   const VectorImage& image = scene.image;
   const RenderOptions options = options_of(image, view);
@@ -98,6 +114,16 @@ void add_view(const Scene& scene, const View& view) {
     RunContext one;
     one.threads = 1;
     for (auto _ : state) benchmark::DoNotOptimize(render(image, options, one).data.data());
+  });
+  // What a viewer does: 8-bit pixels again and again, patches and outlines set up before.
+  add(scene, view, "frame", region, [=, &image](benchmark::State& state) {
+    Renderer renderer(image);
+    bench_draw(state, renderer, options, [](Renderer&) {});
+  });
+  // All from the picture's control points to 8-bit pixels.
+  add(scene, view, "once", region, [=, &image](benchmark::State& state) {
+    Renderer renderer(image);
+    bench_draw(state, renderer, options, [&](Renderer& r) { r = Renderer(image); });
   });
 }
 
