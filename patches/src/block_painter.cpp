@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kPlane = std::size_t{1} * kBlockSide * kBlockSide;
 
 void set_planes(std::vector<float>& memory, SamplePlanes& planes) {
-  memory.assign(4 * kPlane + ColorBatch::kLanes, 0.0f);
+  memory.assign(4 * kPlane + ColorBatch::kPadding, 0.0f);
   for (int k = 0; k < 4; ++k) planes.channel[k] = memory.data() + k * kPlane;
   planes.stride = kBlockSide;
 }

@@ -60,27 +60,73 @@ HWY_INLINE Normalized normalized(const float (&map)[6], const V& x, const V& y) 
           (number(map[3]) * x + number(map[4]) * y) + number(map[5])};
 }
 
-/// Whether `factor` times the fourth derivatives of the inverse is at most 1 in a disc of radius r
-/// around points whose parameters lie at most `out` from the middle, where the Jacobian's inverse
-/// is of norm b. With a majorant's help |J^-1| <= m = b / (1 - e) there, where e (1 - e) = b^2 r
-/// |Q''|, and the disc's image is within m r.
-HWY_INLINE Mask is_smooth(const PatchProgram::Derivatives& q, const V& b, const V& out, float r,
-                          float factor) {
-  const V one = number(1);
-  const V product = b * b * number(q.second * r);
-  const V root = hn::Sqrt(hn::Max(one - number(4) * product, number(0.05f)));
-  const V m = b * number(2) / (one + root);
-  // Faa di Bruno: the terms of the fourth derivative of an inverse, all of one sign.
-  const V m2 = m * m, second = number(q.second);
-  const V fourth =
-      m2 * m2 * m *
-      (number(q.fourth) + m * second * (number(10 * q.third) + number(15) * m * second * second));
-  return hn::And(hn::And(product <= number(0.23f), out + m * number(r) <= number(q.reach)),
-                 fourth * number(factor) <= one);
+/// Frobenius norms of the position's second, third and fourth derivatives at parameters; the fourth
+/// are the same everywhere, and there are no higher ones.
+struct Derivatives {
+  V second, third, fourth;
+};
+HWY_INLINE Derivatives derivatives_at(const PatchProgram& p, const V& s, const V& t) {
+  V second = hn::Zero(Floats()), third = second;
+  float fourth = 0;
+  for (const auto& q : p.position) {
+    const V ss =
+        number(2 * q[0]) + number(6 * q[1]) * s + (number(2 * q[3]) + number(6 * q[4]) * s) * t;
+    const V tt =
+        number(2 * q[5]) + number(2 * q[6]) * s + (number(6 * q[7]) + number(6 * q[8]) * s) * t;
+    const V st = number(q[2]) + (number(2 * q[3]) + number(3 * q[4]) * s) * s +
+                 (number(2 * q[6]) + number(3 * q[8]) * t) * t;
+    second = second + (ss * ss + tt * tt + number(2) * st * st);
+    const V sss = number(6 * q[1]) + number(6 * q[4]) * t;
+    const V ttt = number(6 * q[7]) + number(6 * q[8]) * s;
+    const V sst = number(2 * q[3]) + number(6 * q[4]) * s;
+    const V stt = number(2 * q[6]) + number(6 * q[8]) * t;
+    third = third + (sss * sss + ttt * ttt + number(3) * (sst * sst + stt * stt));
+    fourth += 4 * 36 * (q[4] * q[4] + q[8] * q[8]);
+  }
+  return {hn::Sqrt(second), hn::Sqrt(third), number(std::sqrt(fourth))};
 }
 
-void judge(const PatchProgram& p, const float (&map)[6], const ParameterBlock* blocks, int count,
-           bool* fit) {
+/// The largest gradient of the channels at parameters.
+HWY_INLINE V gradient_at(const PatchProgram& p, int channels, const V& s, const V& t) {
+  V most = hn::Zero(Floats());
+  for (int k = 0; k < channels; ++k) {
+    V row[4], slope[4];
+    for (int j = 0; j < 4; ++j) {
+      const float* const c = p.color[k] + 4 * j;
+      const V b2 = number(c[3]) * s + number(c[2]), b1 = b2 * s + number(c[1]);
+      row[j] = b1 * s + number(c[0]);
+      slope[j] = (number(c[3]) * s + b2) * s + b1;
+    }
+    const V along_s = ((slope[3] * t + slope[2]) * t + slope[1]) * t + slope[0];
+    const V along_t = (number(3) * row[3] * t + number(2) * row[2]) * t + row[1];
+    most = hn::Max(most, along_s * along_s + along_t * along_t);
+  }
+  return hn::Sqrt(most);
+}
+
+/// A bound of the fourth derivatives of the inverse in a disc of radius r around points whose
+/// Jacobian's inverse is of norm b. With a majorant's help |J^-1| <= m = b / (1 - e) as far as
+/// `reach` = 3/2 b r from their parameters, where e = b |Q''| reach is at most 1/3, so that the
+/// disc's image stays within reach.
+struct InverseBound {
+  V fourth, reach;
+  Mask valid;
+};
+HWY_INLINE InverseBound bound_inverse(const Derivatives& q, const V& b, float r) {
+  const V one = number(1), reach = number(1.5f * r) * b;
+  const V third = q.third + reach * q.fourth;
+  const V second = q.second + reach * (q.third + number(0.5f) * reach * q.fourth);
+  const V e = b * second * reach;
+  const V m = b / (one - hn::Min(e, number(0.5f))), m2 = m * m;
+  // Faa di Bruno: the terms of the fourth derivative of an inverse, all of one sign.
+  const V fourth =
+      m2 * m2 * m *
+      (q.fourth + m * second * (number(10) * third + number(15) * m * second * second));
+  return {fourth, reach, e <= number(1.0f / 3)};
+}
+
+void judge(const PatchProgram& p, const float (&map)[6], bool opaque, const ParameterBlock* blocks,
+           int count, bool* fit) {
   const Floats d;
   constexpr float kHalf = kParameterBlock / 2.0f, kAllowed = 1.0f / 200 / 255;
   const float across[2] = {map[0] + map[1], map[3] + map[4]};
@@ -91,8 +137,8 @@ void judge(const PatchProgram& p, const float (&map)[6], const ParameterBlock* b
   // max |(x - x_1) ... (x - x_4)| / 4! = (side / 4)^4 / 12 times the fourth derivative.
   const float wx = map[0] * map[0] + map[3] * map[3], wy = map[1] * map[1] + map[4] * map[4];
   constexpr float kQuarter = kParameterBlock / 4.0f;
-  const float factor = kQuarter * kQuarter * kQuarter * kQuarter / 12 * 1.85f *
-                       (wx * wx + wy * wy) * p.steepest / kAllowed;
+  const float factor =
+      kQuarter * kQuarter * kQuarter * kQuarter / 12 * 1.85f * (wx * wx + wy * wy) / kAllowed;
   const int lanes = static_cast<int>(hn::Lanes(d));
   for (int first = 0; first < count; first += lanes) {
     alignas(64) float xs[16], ys[16], ok[16];
@@ -101,15 +147,19 @@ void judge(const PatchProgram& p, const float (&map)[6], const ParameterBlock* b
       xs[i] = block.x + kHalf, ys[i] = block.y + kHalf;
     }
     const Normalized middle = normalized(map, hn::Load(d, xs), hn::Load(d, ys));
-    const Parameters at = invert(p, middle.x, middle.y, kReach);
+    Parameters found[1];
+    invert<1>(p, {middle.x}, {middle.y}, kReach, 1, found);
+    const Parameters& at = found[0];
     const NewtonStep jacobian = newton_step(p, middle.x, middle.y, at.s, at.t, 1);
     const V f = jacobian.frobenius, det = jacobian.determinant, twice = number(2) * det;
     // The larger singular value of the inverse.
     const V spread = hn::Sqrt(hn::Max(f * f - twice * twice, hn::Zero(d)));
     const V b = hn::Sqrt((f + spread) * number(0.5f)) / det;
-    const V out = hn::Max(hn::Abs(at.s), hn::Abs(at.t));
-    const Mask fits = hn::And(at.found, hn::Or(is_smooth(p.near, b, out, radius, factor),
-                                               is_smooth(p.far, b, out, radius, factor)));
+    const InverseBound bound = bound_inverse(derivatives_at(p, at.s, at.t), b, radius);
+    const V gradient = hn::Min(number(p.steepest), gradient_at(p, opaque ? 3 : 4, at.s, at.t) +
+                                                       bound.reach * number(p.color_curvature));
+    const Mask fits = hn::And(hn::And(at.found, bound.valid),
+                              bound.fourth * (gradient * number(factor)) <= number(1));
     hn::Store(hn::IfThenElseZero(fits, number(1)), d, ok);
     for (int i = 0; i < std::min(lanes, count - first); ++i) fit[first + i] = ok[i] != 0;
   }
@@ -129,10 +179,11 @@ HWY_INLINE bool find_nodes(const PatchProgram& p, const float (&map)[6],
   for (int i = 0; i < 16; i += lanes) {
     const Normalized point = normalized(map, hn::Load(d, xs + i), hn::Load(d, ys + i));
     // Interpolation may add up the nodes' errors to 3.4 times the largest.
-    const Parameters at = invert(p, point.x, point.y, kReach, 4);
-    found = hn::And(found, at.found);
-    hn::Store(at.s, d, s + i);
-    hn::Store(at.t, d, t + i);
+    Parameters at[1];
+    invert<1>(p, {point.x}, {point.y}, kReach, 4, at);
+    found = hn::And(found, at[0].found);
+    hn::Store(at[0].s, d, s + i);
+    hn::Store(at[0].t, d, t + i);
   }
   return hn::AllTrue(d, found);
 }
@@ -190,9 +241,9 @@ HWY_EXPORT(judge);
 HWY_EXPORT(add);
 }  // namespace
 
-void judge_blocks(const PatchProgram& program, const float (&map)[6], const ParameterBlock* blocks,
-                  int count, bool* fit) {
-  HWY_DYNAMIC_DISPATCH(judge)(program, map, blocks, count, fit);
+void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaque,
+                  const ParameterBlock* blocks, int count, bool* fit) {
+  HWY_DYNAMIC_DISPATCH(judge)(program, map, opaque, blocks, count, fit);
 }
 
 bool add_block(const PatchProgram& program, const float (&map)[6], const ParameterBlock& block,

@@ -22,8 +22,8 @@ struct BlockRow {
 /// no colour errs by more than 1/200 of an 8-bit step. Proven, not tried: by bounds of the
 /// derivatives of the inverse. A block's answer does not depend on the others; all instruction sets
 /// agree.
-void judge_blocks(const PatchProgram& program, const float (&map)[6], const ParameterBlock* blocks,
-                  int count, bool* fit);
+void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaque,
+                  const ParameterBlock* blocks, int count, bool* fit);
 
 /// Appends the parameters of parts of rows of a block that judge_blocks() found fit. False, with
 /// nothing appended, where a node's parameters are not found.

@@ -78,36 +78,48 @@ HWY_INLINE NewtonStep newton_step(const PatchProgram& p, const V& x, const V& y,
           norm * (length * bound) <= number(1)};
 }
 
-/// Parameters of normalized points; found where they lie at most `margin` outside the square. A
-/// lane stays where it arrived, so that no point's result depends on its neighbours.
-HWY_INLINE Parameters invert(const PatchProgram& p, const V& x, const V& y, float margin,
-                             float strictness = 1) {
+/// Parameters of vectors of normalized points; found where they lie at most `margin` outside the
+/// square. All take two steps, which mostly do, so that the vectors' arithmetic overlaps; then
+/// lanes that have not arrived go on while the others stay, so that no point's result depends on
+/// its neighbours.
+template <int count>
+HWY_INLINE void invert(const PatchProgram& p, const V (&x)[count], const V (&y)[count],
+                       float margin, float strictness, Parameters (&found)[count]) {
   constexpr int kMostSteps = 6;
-  const V half = number(0.5f), far = number(1 + margin);
-  const auto start = [&](int d) {
-    const float* const w = p.start[d];
-    const V value = (number(w[3]) * x + (number(w[4]) * y + number(w[1]))) * x +
-                    ((number(w[5]) * y + number(w[2])) * y + number(w[0]));
-    const V reach = number(0.5f + margin);
-    return hn::Min(hn::Max(value, hn::Neg(reach)), reach);
-  };
-  NewtonStep at = newton_step(p, x, y, start(0), start(1), strictness);
-  const auto near = [&](const V& limit) {
+  const V half = number(0.5f), far = number(1 + margin), reach = number(0.5f + margin);
+  const auto near = [](const NewtonStep& at, const V& limit) {
     return hn::And(hn::Abs(at.s) < limit, hn::Abs(at.t) < limit);
   };
+  NewtonStep at[count];
   // A lane that meets a fold or leaves the neighbourhood of the square has failed.
-  Mask sound = hn::And(at.sound, near(far));
-  Mask found = hn::And(at.arrived, sound);
-  Mask active = hn::AndNot(at.arrived, sound);
-  for (int step = 1; HWY_UNLIKELY(step < kMostSteps && !hn::AllFalse(Floats(), active)); ++step) {
-    const NewtonStep next = newton_step(p, x, y, at.s, at.t, strictness);
-    at.s = hn::IfThenElse(active, next.s, at.s);
-    at.t = hn::IfThenElse(active, next.t, at.t);
-    sound = hn::And(next.sound, near(far));
-    found = hn::Or(found, hn::And(active, hn::And(sound, next.arrived)));
-    active = hn::And(active, hn::AndNot(next.arrived, sound));
+  Mask sound[count];
+  for (int k = 0; k < count; ++k) {
+    const auto start = [&](int d) {
+      const float* const w = p.start[d];
+      const V value = (number(w[3]) * x[k] + (number(w[4]) * y[k] + number(w[1]))) * x[k] +
+                      ((number(w[5]) * y[k] + number(w[2])) * y[k] + number(w[0]));
+      return hn::Min(hn::Max(value, hn::Neg(reach)), reach);
+    };
+    at[k] = newton_step(p, x[k], y[k], start(0), start(1), strictness);
   }
-  return {at.s, at.t, hn::And(found, near(half + number(margin)))};
+  for (int k = 0; k < count; ++k) {
+    sound[k] = hn::And(at[k].sound, near(at[k], far));
+    at[k] = newton_step(p, x[k], y[k], at[k].s, at[k].t, strictness);
+    sound[k] = hn::And(sound[k], hn::And(at[k].sound, near(at[k], far)));
+  }
+  for (int k = 0; k < count; ++k) {
+    Mask arrived = hn::And(at[k].arrived, sound[k]);
+    Mask active = hn::AndNot(at[k].arrived, sound[k]);
+    for (int step = 2; HWY_UNLIKELY(step < kMostSteps && !hn::AllFalse(Floats(), active)); ++step) {
+      const NewtonStep next = newton_step(p, x[k], y[k], at[k].s, at[k].t, strictness);
+      at[k].s = hn::IfThenElse(active, next.s, at[k].s);
+      at[k].t = hn::IfThenElse(active, next.t, at[k].t);
+      active = hn::And(active, hn::And(next.sound, near(next, far)));
+      arrived = hn::Or(arrived, hn::And(active, next.arrived));
+      active = hn::AndNot(next.arrived, active);
+    }
+    found[k] = {at[k].s, at[k].t, hn::And(arrived, near(at[k], half + number(margin)))};
+  }
 }
 
 HWY_INLINE V bicubic(const float* c, const V& s, const V& t) {

@@ -13,9 +13,6 @@
 
 namespace quadrille {
 
-/// Of the bounds of derivatives; the square itself reaches to 1/2.
-constexpr float kReaches[2] = {0.65f, 1};
-
 /// What is set up side by side, an element per patch.
 constexpr int kProgramLanes = 16;
 using ProgramLane = float[kProgramLanes];
@@ -27,7 +24,7 @@ struct alignas(64) ProgramBatch {
   ProgramLane middle[2];     ///< of the patch relative to `center`
   ProgramLane linear[2][2];  ///< derivatives in the middle: [coordinate][parameter]
   ProgramLane higher[2][9], start[2][6], weights[4][16], newton_bound, color_bound;
-  ProgramLane derivatives[2][3], steepest;
+  ProgramLane steepest, color_curvature;
   Eigen::Vector2d center[kProgramLanes];
 };
 
@@ -140,37 +137,35 @@ HWY_INLINE void fit_start(const V (&q)[2][9], ProgramBatch& batch, std::size_t i
   }
 }
 
-/// Upper bounds of the Frobenius norms of the second, third and fourth derivatives for |s|, |t| <=
-/// r.
-struct DerivativeBounds {
-  V second, third, fourth;
-};
-HWY_INLINE DerivativeBounds derivative_bounds(const V (&q)[2][9], float reach) {
-  const V r = number(reach), two = number(2), three = number(3), four = number(4), six = number(6);
-  V second = hn::Zero(D()), third = second, fourth = second;
+/// An upper bound of the Frobenius norm of the second derivatives for |s|, |t| <= 3/4: how far
+/// apart Jacobians are at most, per distance.
+HWY_INLINE V curvature_bound(const V (&q)[2][9]) {
+  const V r = number(0.75f), two = number(2), six = number(6);
+  V sum = hn::Zero(D());
   for (const auto& w : q) {
     const auto size = [&](int k) { return hn::Abs(w[k]); };
     const V ss = two * (size(0) + r * size(3)) + six * r * (size(1) + r * size(4));
     const V tt = two * (size(5) + r * size(6)) + six * r * (size(7) + r * size(8));
-    const V st = size(2) + two * r * (size(3) + size(6)) + three * r * r * (size(4) + size(8));
-    second = second + (ss * ss + tt * tt + two * st * st);
-    const V sss = six * (size(1) + r * size(4)), ttt = six * (size(7) + r * size(8));
-    const V sst = two * size(3) + six * r * size(4), stt = two * size(6) + six * r * size(8);
-    third = third + (sss * sss + ttt * ttt + three * (sst * sst + stt * stt));
-    const V ssst = six * size(4), sttt = six * size(8);
-    fourth = fourth + four * (ssst * ssst + sttt * sttt);
+    const V st = size(2) + two * r * (size(3) + size(6)) + number(3) * r * r * (size(4) + size(8));
+    sum = sum + (ss * ss + tt * tt + two * st * st);
   }
-  return {hn::Sqrt(second), hn::Sqrt(third), hn::Sqrt(fourth)};
+  return hn::Sqrt(sum);
 }
 
-/// Stores the weights of one channel; returns an upper bound of its gradient's norm in the square.
-HWY_INLINE V set_channel(const ProgramLane (&value)[4], const V (&du)[4], const V (&dv)[4],
-                         const V (&duv)[4], ProgramLane (&weights)[16], std::size_t i) {
+/// Upper bounds for |s|, |t| <= 0.55 of norms of a channel's derivatives.
+struct ColorBounds {
+  V gradient, second;
+};
+
+/// Stores the weights of one channel.
+HWY_INLINE ColorBounds set_channel(const ProgramLane (&value)[4], const V (&du)[4],
+                                   const V (&dv)[4], const V (&duv)[4], ProgramLane (&weights)[16],
+                                   std::size_t i) {
   const Cubic rows[4] = {cubic(load(value[0], i), du[0], load(value[1], i), du[1]),
                          cubic(dv[0], duv[0], dv[1], duv[1]),
                          cubic(load(value[3], i), du[3], load(value[2], i), du[2]),
                          cubic(dv[3], duv[3], dv[2], duv[2])};
-  V along_s = hn::Zero(D()), along_t = along_s;
+  V along_s = hn::Zero(D()), along_t = along_s, ss = along_s, st = along_s, tt = along_s;
   constexpr float kPower[4] = {1, 0.55f, 0.3025f, 0.166375f};
   for (int k = 0; k < 4; ++k) {
     const Cubic column = cubic(rows[0].c[k], rows[1].c[k], rows[2].c[k], rows[3].c[k]);
@@ -179,20 +174,25 @@ HWY_INLINE V set_channel(const ProgramLane (&value)[4], const V (&du)[4], const 
       const V size = hn::Abs(column.c[j]);
       if (k > 0) along_s = along_s + size * number(k * kPower[k - 1] * kPower[j]);
       if (j > 0) along_t = along_t + size * number(j * kPower[k] * kPower[j - 1]);
+      if (k > 1) ss = ss + size * number(k * (k - 1) * kPower[k - 2] * kPower[j]);
+      if (j > 1) tt = tt + size * number(j * (j - 1) * kPower[k] * kPower[j - 2]);
+      if (k > 0 && j > 0) st = st + size * number(k * j * kPower[k - 1] * kPower[j - 1]);
     }
   }
-  return hn::Sqrt(along_s * along_s + along_t * along_t);
+  return {hn::Sqrt(along_s * along_s + along_t * along_t),
+          hn::Sqrt(ss * ss + tt * tt + number(2) * st * st)};
 }
 
-/// Weights of the colour; returns an upper bound of all channels' gradients.
-HWY_INLINE V set_colors(const V (&twist)[2][4], bool opaque, ProgramBatch& batch, std::size_t i) {
+/// Weights of the colour; bounds of all channels.
+HWY_INLINE ColorBounds set_colors(const V (&twist)[2][4], bool opaque, ProgramBatch& batch,
+                                  std::size_t i) {
   V length[4];  // |P_u| |P_v|, with the sign of the twist
   for (int k = 0; k < 4; ++k) {
     const V ux = load(batch.du[0][k], i), uy = load(batch.du[1][k], i);
     const V vx = load(batch.dv[0][k], i), vy = load(batch.dv[1][k], i);
     length[k] = hn::Sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy)) * load(batch.twist_sign[k], i);
   }
-  V steepest = hn::Zero(D());
+  ColorBounds most = {hn::Zero(D()), hn::Zero(D())};
   for (int c = 0; c < (opaque ? 3 : 4); ++c) {
     V du[4], dv[4], duv[4];
     for (int k = 0; k < 4; ++k) {
@@ -201,9 +201,10 @@ HWY_INLINE V set_colors(const V (&twist)[2][4], bool opaque, ProgramBatch& batch
       dv[k] = dx * load(batch.dv[0][k], i) + dy * load(batch.dv[1][k], i);
       duv[k] = dx * twist[0][k] + dy * twist[1][k] + load(batch.color_twist[c][k], i) * length[k];
     }
-    steepest = hn::Max(steepest, set_channel(batch.color[c], du, dv, duv, batch.weights[c], i));
+    const ColorBounds bounds = set_channel(batch.color[c], du, dv, duv, batch.weights[c], i);
+    most = {hn::Max(most.gradient, bounds.gradient), hn::Max(most.second, bounds.second)};
   }
-  return steepest;
+  return most;
 }
 
 /// Adini's twists of one coordinate, see patch_geometry().
@@ -238,19 +239,14 @@ void set_up(ProgramBatch& batch, bool opaque) {
       for (int d = 0; d < 2; ++d) store(q[d][k], batch.higher[d][k], i);
     }
     fit_start(q, batch, i);
-    for (int r = 0; r < 2; ++r) {
-      const DerivativeBounds bounds = derivative_bounds(q, kReaches[r]);
-      store(bounds.second, batch.derivatives[r][0], i);
-      store(bounds.third, batch.derivatives[r][1], i);
-      store(bounds.fourth, batch.derivatives[r][2], i);
-    }
-    const V curvature = derivative_bounds(q, 0.75f).second;
-    const V steepest = set_colors(twist, opaque, batch, i);
-    store(steepest, batch.steepest, i);
+    const V curvature = curvature_bound(q);
+    const ColorBounds color = set_colors(twist, opaque, batch, i);
+    store(color.gradient, batch.steepest, i);
+    store(color.second, batch.color_curvature, i);
     // Where 4 b curvature n <= 1, the root is at most 0.7 b curvature n^2 from the step's end.
     constexpr float kAllowed = 1.0f / 250 / 255;
     store(number(4) * curvature, batch.newton_bound, i);
-    store(number(0.7f / kAllowed) * curvature * steepest, batch.color_bound, i);
+    store(number(0.7f / kAllowed) * curvature * color.gradient, batch.color_bound, i);
   }
 }
 
@@ -307,12 +303,8 @@ void take(const ProgramBatch& batch, int lane, PatchProgram& program) {
   }
   program.newton_bound = batch.newton_bound[lane];
   program.color_bound = batch.color_bound[lane];
-  PatchProgram::Derivatives* const derivatives[2] = {&program.near, &program.far};
-  for (int r = 0; r < 2; ++r) {
-    *derivatives[r] = {kReaches[r], batch.derivatives[r][0][lane], batch.derivatives[r][1][lane],
-                       batch.derivatives[r][2][lane]};
-  }
   program.steepest = batch.steepest[lane];
+  program.color_curvature = batch.color_curvature[lane];
   const double determinant = linear.determinant();
   program.regular = determinant > 1e-5 * linear.col(0).norm() * linear.col(1).norm() &&
                     std::isfinite(program.newton_bound);

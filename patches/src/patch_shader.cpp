@@ -30,7 +30,7 @@ void PatchShader::shade(ColorBatch& batch) {
 
 void PatchShader::judge(const ParameterBlock* blocks, int count, bool* fit) const {
   std::fill(fit, fit + count, false);
-  if (program_.regular) judge_blocks(program_, map_, blocks, count, fit);
+  if (program_.regular) judge_blocks(program_, map_, scene_.patches().opaque, blocks, count, fit);
 }
 
 bool PatchShader::add(const ParameterBlock& block, std::span<const BlockRow> rows,

@@ -1,6 +1,7 @@
 #include "pixel_packer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -22,6 +23,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, 16>;
 using V = hn::Vec<Floats>;
 
+/// Whether four bytes can be put together as one word.
+constexpr bool kPacksWords =
+    std::endian::native == std::endian::little && HWY_TARGET != HWY_SCALAR;
+
 /// Values in [0, 1] as whole numbers, rounded half up; floats as they are.
 template <class Sample>
 HWY_INLINE auto quantized(const V& v) {
@@ -39,7 +44,17 @@ HWY_INLINE auto quantized(const V& v) {
 template <class Sample, int channels>
 HWY_INLINE void write_vector(const V (&c)[4], Sample* out) {
   const hn::Rebind<Sample, Floats> d;
-  if constexpr (channels == 3) {
+  if constexpr (channels == 4 && sizeof(Sample) == 1 && kPacksWords) {
+    const Floats df;
+    const auto whole = [&](const V& v) {
+      return hn::ConvertTo(hn::RebindToSigned<Floats>(),
+                           v * hn::Set(df, 255.0f) + hn::Set(df, 0.5f));
+    };
+    const auto low = hn::Or(whole(c[0]), hn::ShiftLeft<8>(whole(c[1])));
+    const auto high = hn::Or(hn::ShiftLeft<16>(whole(c[2])), hn::ShiftLeft<24>(whole(c[3])));
+    hn::StoreU(hn::BitCast(hn::Repartition<Sample, Floats>(), hn::Or(low, high)),
+               hn::Repartition<Sample, Floats>(), out);
+  } else if constexpr (channels == 3) {
     hn::StoreInterleaved3(quantized<Sample>(c[0]), quantized<Sample>(c[1]), quantized<Sample>(c[2]),
                           d, out);
   } else {

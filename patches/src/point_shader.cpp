@@ -16,21 +16,32 @@ namespace {
 /// Parameters may end this far outside the square; the outline is scanned as a polyline.
 constexpr float kMargin = 0.02f;
 
+/// Vectors that are inverted side by side.
+constexpr int kTogether = 2;
+
 void invert_all(const PatchProgram& p, const float (&map)[6], ColorBatch& batch) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  for (int i = 0; i < batch.count; i += lanes) {
-    const V given_x = hn::Load(d, batch.x + i), given_y = hn::Load(d, batch.y + i);
-    const V x = (number(map[0]) * given_x + number(map[1]) * given_y) + number(map[2]);
-    const V y = (number(map[3]) * given_x + number(map[4]) * given_y) + number(map[5]);
-    const Parameters at = invert(p, x, y, kMargin);
-    hn::Store(at.s, d, batch.s + i);
-    hn::Store(at.t, d, batch.t + i);
-    if (HWY_UNLIKELY(!hn::AllTrue(d, at.found))) {
-      alignas(64) float found[16];
-      hn::Store(hn::IfThenElseZero(at.found, number(1)), d, found);
-      for (int k = 0; k < std::min(lanes, batch.count - i); ++k) {
-        if (found[k] == 0) batch.missing[batch.missing_count++] = i + k;
+  for (int first = 0; first < batch.count; first += kTogether * lanes) {
+    V x[kTogether], y[kTogether];
+    for (int k = 0; k < kTogether; ++k) {
+      const V given_x = hn::Load(d, batch.x + first + k * lanes);
+      const V given_y = hn::Load(d, batch.y + first + k * lanes);
+      x[k] = (number(map[0]) * given_x + number(map[1]) * given_y) + number(map[2]);
+      y[k] = (number(map[3]) * given_x + number(map[4]) * given_y) + number(map[5]);
+    }
+    Parameters at[kTogether];
+    invert<kTogether>(p, x, y, kMargin, 1, at);
+    for (int k = 0; k < kTogether; ++k) {
+      const int i = first + k * lanes;
+      hn::Store(at[k].s, d, batch.s + i);
+      hn::Store(at[k].t, d, batch.t + i);
+      if (HWY_UNLIKELY(!hn::AllTrue(d, at[k].found))) {
+        alignas(64) float found[16];
+        hn::Store(hn::IfThenElseZero(at[k].found, number(1)), d, found);
+        for (int j = 0; j < std::min(lanes, batch.count - i); ++j) {
+          if (found[j] == 0) batch.missing[batch.missing_count++] = i + j;
+        }
       }
     }
   }
@@ -95,7 +106,7 @@ HWY_EXPORT(scatter);
 void invert_points(const PatchProgram& program, const float (&map)[6], ColorBatch& batch) {
   batch.missing_count = 0;
   if (batch.count == 0) return;
-  const int padded = batch.count + ColorBatch::kLanes;
+  const int padded = batch.count + ColorBatch::kPadding;
   std::fill(batch.x + batch.count, batch.x + padded, batch.x[batch.count - 1]);
   std::fill(batch.y + batch.count, batch.y + padded, batch.y[batch.count - 1]);
   HWY_DYNAMIC_DISPATCH(invert_all)(program, map, batch);

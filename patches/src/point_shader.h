@@ -10,12 +10,13 @@ namespace quadrille {
 /// their premultiplied colours, 0 <= r, g, b <= alpha <= 1.
 struct ColorBatch {
   static constexpr int kCapacity = 512;
-  static constexpr int kLanes = 16;  ///< arrays are worked on and padded in so many at most
+  static constexpr int kPadding = 32;  ///< arrays are worked on in at most so many at a time
 
   int count = 0;
-  alignas(64) float x[kCapacity + kLanes], y[kCapacity + kLanes];
-  alignas(64) float s[kCapacity + kLanes], t[kCapacity + kLanes];  ///< parameters, from -1/2 to 1/2
-  alignas(64) float color[4][kCapacity + kLanes];
+  alignas(64) float x[kCapacity + kPadding], y[kCapacity + kPadding];
+  alignas(64) float s[kCapacity + kPadding],
+      t[kCapacity + kPadding];  ///< parameters, from -1/2 to 1/2
+  alignas(64) float color[4][kCapacity + kPadding];
   int missing_count = 0;
   int missing[kCapacity];  ///< points whose parameters were not found in or next to the patch
 };

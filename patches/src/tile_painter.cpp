@@ -22,7 +22,7 @@ const SamplePlanes& TilePainter::paint(const std::vector<LayerScene>& scenes,
       add(blocks_.paint(scenes, part, with_alpha), part, frame.box, tile);
     }
   }
-  memory_.resize(channels * pixels + ColorBatch::kLanes);
+  memory_.resize(channels * pixels + ColorBatch::kPadding);
   const double share = 1.0 / frame.box[0] / frame.box[1];
   for (std::size_t i = 0; i < channels * pixels; ++i) {
     memory_[i] = static_cast<float>(sums_[i] * share);

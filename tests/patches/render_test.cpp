@@ -132,6 +132,32 @@ TEST(Render, CountsEveryPixelOnce) {
   }
 }
 
+TEST(Render, CoversEveryPixelOnceOnManyMeshes) {
+  Random random(77);
+  for (std::uint32_t seed = 0; seed < 500; ++seed) {
+    const PatchMesh patches = random_patches(random.integer(1, 6), random.integer(1, 6), 40, 30,
+                                             seed, {random.uniform(0, 0.45), random.uniform(0, 2)});
+    const CoverageReport report =
+        count_coverage(single_layer(patches, 40, 30), at_scale(random.uniform(0.3, 5)));
+    EXPECT_EQ(report.uncovered, 0) << seed;
+    EXPECT_EQ(report.doubly_covered, 0) << seed;
+  }
+}
+
+TEST(Render, LeavesNoHoleWhereMeshesFold) {
+  Random random(78);
+  for (std::uint32_t seed = 0; seed < 500; ++seed) {
+    PatchMesh patches = random_patches(4, 3, 40, 30, seed % 10);
+    for (auto& p : patches.mesh.vertices) {
+      const bool inside = p.x() > 0 && p.x() < 40 && p.y() > 0 && p.y() < 30;
+      if (inside) p = {random.uniform(1, 39), random.uniform(1, 29)};
+      if (inside && seed % 7 == 0) p = {20, 15};  // all in one point
+    }
+    const VectorImage image = single_layer(std::move(patches), 40, 30);
+    EXPECT_EQ(count_coverage(image, at_scale(random.uniform(0.5, 3))).uncovered, 0) << seed;
+  }
+}
+
 TEST(Render, CountsHolesAndOverlaps) {
   // Two separate quads of one mesh: [0,4] x [0,4] and [3,6] x [0,4] in a picture of 8 x 4.
   std::vector<Eigen::Vector2d> vertices = {{0, 0}, {4, 0}, {4, 4}, {0, 4},
@@ -226,6 +252,32 @@ TEST(Render, AveragesPixelsOnTheOutlineOfARotatedLayer) {
   ASSERT_GT(count, 300);
   EXPECT_LE(sum / count, 1.0);
   EXPECT_LE(worst, 8.0);
+}
+
+TEST(Render, AveragesOutlinesOfAllSlopesAndShifts) {
+  Random random(31);
+  double sum = 0;
+  long count = 0;
+  for (int turn = 0; turn < 24; ++turn) {
+    VectorImage image = random_image(8);
+    image.layers[0].transform = Eigen::Translation2d(36 + random.uniform(), 36 + random.uniform()) *
+                                Eigen::Rotation2Dd(turn * EIGEN_PI / 12 + 0.01) *
+                                Eigen::Translation2d(-18, -14);
+    image.width = image.height = 72;
+    const Raster r = render(image), fine = render(image, at_scale(16));
+    for (int y = 0; y < r.height; ++y) {
+      for (int x = 0; x < r.width; ++x) {
+        const Color truth = mean_of_fine(fine, x, y);
+        if (truth[3] < 1e-4 || truth[3] > 1 - 1e-4) continue;
+        const float* const p = r.pixel(x, y);
+        const Color drawn(p[0] * p[3], p[1] * p[3], p[2] * p[3], p[3]);
+        sum += 255 * (drawn - truth).abs().mean();
+        ++count;
+      }
+    }
+  }
+  ASSERT_GT(count, 3000);
+  EXPECT_LE(sum / static_cast<double>(count), 1.0);
 }
 
 TEST(Render, DoesNotTouchAnOutlineBetweenPixels) {
