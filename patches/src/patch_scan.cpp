@@ -21,9 +21,10 @@ struct ScanRaster {
 
 /// Walks a segment from row to row in whole numbers: the crossing in row r is in front of sample
 /// ceil(((x0 - half) dy + (center_r - y0) dx) / (unit dy)).
-template <class Wide, class Visit>
-void walk_segment(const FixedPoint& a, const FixedPoint& b, std::int64_t row_begin,
-                  std::int64_t row_end, const ScanRaster& raster, const Visit& visit) {
+template <class Wide>
+void walk_segment(const FixedPoint& a, const FixedPoint& b, int turn, std::int64_t row_begin,
+                  std::int64_t row_end, const ScanRaster& raster,
+                  std::vector<Crossing>& crossings) {
   const std::int64_t unit = std::int64_t{1} << raster.bits, half = unit / 2;
   const Wide dx = b.x - a.x, dy = b.y - a.y, divisor = dy << raster.bits;
   // Quotients are rounded up; their remainders lie in (-divisor, 0].
@@ -39,7 +40,7 @@ void walk_segment(const FixedPoint& a, const FixedPoint& b, std::int64_t row_beg
   if (row_end - row_begin > 1) step = divide(dx << raster.bits);
   for (std::int64_t row = row_begin; row < row_end; ++row) {
     const Wide column = std::clamp<Wide>(quotient, 0, raster.columns);
-    visit(static_cast<int>(row - raster.y), static_cast<int>(column));
+    crossings.push_back({static_cast<int>(row - raster.y), static_cast<int>(column), turn});
     quotient += step.first;
     rest += step.second;
     if (rest <= -divisor) --quotient, rest += divisor;
@@ -54,12 +55,11 @@ void cross_segment(FixedPoint a, FixedPoint b, int turn, const ScanRaster& raste
   const std::int64_t row_begin = std::max(first_center(a.y, raster.bits), raster.y);
   const std::int64_t row_end = std::min(first_center(b.y, raster.bits), raster.y + raster.rows);
   if (row_begin >= row_end) return;
-  const auto visit = [&](int row, int column) { crossings.push_back({row, column, turn}); };
   constexpr std::int64_t kNarrow = std::int64_t{1} << 30;
   if (std::max(b.y - a.y, std::abs(b.x - a.x)) < kNarrow) {
-    walk_segment<std::int64_t>(a, b, row_begin, row_end, raster, visit);
+    walk_segment<std::int64_t>(a, b, turn, row_begin, row_end, raster, crossings);
   } else {
-    walk_segment<__int128>(a, b, row_begin, row_end, raster, visit);
+    walk_segment<__int128>(a, b, turn, row_begin, row_end, raster, crossings);
   }
 }
 
@@ -111,15 +111,6 @@ std::vector<int> all_patches(const PatchMesh& patches) {
 SampleWindow intersection(const SampleWindow& a, const SampleWindow& b) {
   return {std::max(a.x_begin, b.x_begin), std::max(a.y_begin, b.y_begin),
           std::min(a.x_end, b.x_end), std::min(a.y_end, b.y_end)};
-}
-
-void append_row_crossings(const FixedPoint& a, const FixedPoint& b, std::int64_t row_begin,
-                          std::int64_t row_end, const SampleWindow& window,
-                          std::vector<int>& columns) {
-  const ScanRaster raster = {kFixedBits, window.x_begin, window.y_begin,
-                             window.x_end - window.x_begin, window.y_end - window.y_begin};
-  walk_segment<__int128>(a, b, row_begin, row_end, raster,
-                         [&](int, int column) { columns.push_back(column); });
 }
 
 PatchScan::PatchScan(const PatchMesh& patches) : patches_(patches) {}

@@ -124,10 +124,4 @@ class PatchScan {
   void bound(int patch);
 };
 
-/// Appends, for the rows row_begin ... row_end - 1 whose centres a segment running down crosses,
-/// the first column of the window whose centre is not left of it, clamped to the window.
-void append_row_crossings(const FixedPoint& a, const FixedPoint& b, std::int64_t row_begin,
-                          std::int64_t row_end, const SampleWindow& window,
-                          std::vector<int>& columns);
-
 }  // namespace quadrille

@@ -26,60 +26,62 @@ void TileOutlines::cross(int edge) {
   crossed.first = static_cast<int>(runs_.size());
   const auto line = scan_->polyline(edge);
   for (std::size_t i = 1; i < line.size();) {
-    if (line[i].y == line[i - 1].y) {
+    const std::size_t begin = i - 1;
+    const bool down = line[i].y > line[begin].y;
+    while (i < line.size() && (down ? line[i].y > line[i - 1].y : line[i].y < line[i - 1].y)) ++i;
+    if (begin == i - 1) {  // level
       ++i;
-      continue;
-    }
-    const bool down = line[i].y > line[i - 1].y;
-    const std::size_t begin = i - 1, first = columns_.size();
-    while (i < line.size() && line[i].y != line[i - 1].y && (line[i].y > line[i - 1].y) == down)
-      ++i;
-    const FixedPoint& top = down ? line[begin] : line[i - 1];
-    const int row =
-        static_cast<int>(std::max<std::int64_t>(first_center(top.y, kFixedBits), window_.y_begin));
-    if (down) {
-      for (std::size_t j = begin + 1; j < i; ++j) scan_segment(line[j - 1], line[j]);
+    } else if (down) {
+      add_run(&line[begin], &line[i - 1], true);
     } else {
-      for (std::size_t j = i - 1; j > begin; --j) scan_segment(line[j], line[j - 1]);
+      add_run(&line[i - 1], &line[begin], false);
     }
-    const int count = static_cast<int>(columns_.size() - first);
-    if (count > 0) runs_.push_back({row - window_.y_begin, count, down, first});
   }
   crossed.last = static_cast<int>(runs_.size());
 }
 
-/// Appends the columns of a segment that runs down, row by row: the first sample whose centre is
-/// not left of it, ceil(((x0 - 1/2) dy + (center - y0) dx) / dy). Numerators are whole numbers
-/// below 2^52 and the divisor is too, so the rounded quotient of doubles never reaches a whole
-/// number that the true one does not.
-void TileOutlines::scan_segment(const FixedPoint& a, const FixedPoint& b) {
-  constexpr std::int64_t kHalf = kFixedOne / 2, kNarrow = std::int64_t{1} << 25;
-  const std::int64_t begin = std::max<std::int64_t>(first_center(a.y, kFixedBits), window_.y_begin);
-  const std::int64_t end = std::min<std::int64_t>(first_center(b.y, kFixedBits), window_.y_end);
+/// Adds points that run down from `top` to `bottom`, which lie one way or the other in memory.
+void TileOutlines::add_run(const FixedPoint* top, const FixedPoint* bottom, bool down) {
+  const std::int64_t begin =
+      std::max<std::int64_t>(first_center(top->y, kFixedBits), window_.y_begin);
+  const std::int64_t end =
+      std::min<std::int64_t>(first_center(bottom->y, kFixedBits), window_.y_end);
   if (begin >= end) return;
+  const int step = bottom > top ? 1 : -1;
+  const std::size_t first = columns_.size();
+  columns_.resize(first + static_cast<std::size_t>(end - begin));
+  int* column = columns_.data() + first;
+  const FixedPoint* p = top;
+  for (std::int64_t row = begin; row < end; ++row) {
+    const std::int64_t center = row * kFixedOne + kFixedOne / 2;
+    while (p[step].y <= center) p += step;
+    const std::int64_t x = column_at(p[0], p[step], center);
+    *column++ = static_cast<int>(std::clamp<std::int64_t>(x, window_.x_begin, window_.x_end) -
+                                 window_.x_begin);
+  }
+  runs_.push_back(
+      {static_cast<int>(begin - window_.y_begin), static_cast<int>(end - begin), down, first});
+}
+
+/// The first sample whose centre is not left of the segment from a down to b where it crosses the
+/// height `center`: ceil(((x0 - 1/2) dy + (center - y0) dx) / dy).
+std::int64_t TileOutlines::column_at(const FixedPoint& a, const FixedPoint& b,
+                                     std::int64_t center) {
+  constexpr std::int64_t kHalf = kFixedOne / 2, kNarrow = std::int64_t{1} << 25;
   const std::int64_t dx = b.x - a.x, dy = b.y - a.y;
-  const std::int64_t first = (a.x >> kFixedBits) - window_.x_begin;
-  const std::int64_t width = window_.x_end - window_.x_begin;
-  if (std::max(dy, std::abs(dx)) >= kNarrow) {
-    append_row_crossings(a, b, begin, end, window_, columns_);
-    return;
+  const std::int64_t whole = a.x >> kFixedBits, rest = (a.x & (kFixedOne - 1)) - kHalf;
+  if (std::max(dy, std::abs(dx)) < kNarrow) {
+    // Both are whole numbers below 2^52, so the rounded quotient of doubles never reaches a whole
+    // number that the true one does not.
+    const double quotient =
+        static_cast<double>(rest * dy + (center - a.y) * dx) / static_cast<double>(dy * kFixedOne);
+    const int truncated = static_cast<int>(quotient);
+    return whole + truncated + (quotient > truncated);
   }
-  const double divisor = static_cast<double>(dy * kFixedOne);
-  const double step = static_cast<double>(dx * kFixedOne);
-  const double numerator = static_cast<double>(((a.x & (kFixedOne - 1)) - kHalf) * dy +
-                                               (begin * kFixedOne + kHalf - a.y) * dx);
-  const std::size_t before = columns_.size();
-  const int count = static_cast<int>(end - begin);
-  columns_.resize(before + count);
-  int* const columns = columns_.data() + before;
-  for (int i = 0; i < count; ++i) {
-    const double quotient = (numerator + i * step) / divisor;
-    const int whole = static_cast<int>(quotient);
-    columns[i] = whole + (quotient > whole);
-  }
-  for (int i = 0; i < count; ++i) {
-    columns[i] = static_cast<int>(std::clamp<std::int64_t>(first + columns[i], 0, width));
-  }
+  const __int128 numerator =
+      static_cast<__int128>(rest) * dy + static_cast<__int128>(center - a.y) * dx;
+  const __int128 divisor = static_cast<__int128>(dy) * kFixedOne;
+  return whole + static_cast<std::int64_t>(numerator / divisor + (numerator % divisor > 0));
 }
 
 bool TileOutlines::Side::insert(const Run* r) {

@@ -47,7 +47,8 @@ class TileOutlines {
   std::vector<int> left_, right_;  // #rows
 
   void cross(int edge);
-  void scan_segment(const FixedPoint& a, const FixedPoint& b);
+  void add_run(const FixedPoint* top, const FixedPoint* bottom, bool down);
+  static std::int64_t column_at(const FixedPoint& a, const FixedPoint& b, std::int64_t center);
   bool simple_spans(int patch, std::vector<SampleSpan>& found);
 };
 
