@@ -24,8 +24,7 @@ using Floats = hn::CappedTag<float, 16>;
 using V = hn::Vec<Floats>;
 
 /// Whether four bytes can be put together as one word.
-constexpr bool kPacksWords =
-    std::endian::native == std::endian::little && HWY_TARGET != HWY_SCALAR;
+constexpr bool kPacksWords = std::endian::native == std::endian::little && HWY_TARGET != HWY_SCALAR;
 
 /// Values in [0, 1] as whole numbers, rounded half up; floats as they are.
 template <class Sample>
