@@ -10,8 +10,8 @@
 namespace quadrille::cli {
 
 /// Endings of the formats made of pixels.
-inline const std::vector<std::string> kRasterEndings = {".png",  ".jpg", ".jpeg",
-                                                        ".webp", ".tif", ".tiff"};
+inline const std::vector<std::string> kRasterEndings = {".png", ".jpg",  ".jpeg", ".webp",
+                                                        ".tif", ".tiff", ".dzi"};
 
 /// The path's ending in lower case, with the dot.
 std::string ending_of(const std::filesystem::path& path);

@@ -29,6 +29,7 @@ const Format kFormats[] = {
     {".webp", raster},
     {".tif", raster},
     {".tiff", raster},
+    {".dzi", raster},
     {".svg",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
         const RunContext& context) { write_svg(image, path, options.svg, context); }},

@@ -3,11 +3,10 @@
 #include <vips/vips.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "ending.h"
@@ -54,16 +53,67 @@ int save_webp(VipsImage* image, const char* path, const RasterFileOptions& optio
 int save_tiff(VipsImage* image, const char* path, const RasterFileOptions&) {
   // Classic TIFF ends at 4 GiB; deflate may grow incompressible data a little.
   const bool big = VIPS_IMAGE_SIZEOF_IMAGE(image) > (3ull << 30);
+  // Tiles let viewers of large pictures read what they show.
+  constexpr double kLargestInStrips = 64e6;
+  const bool tile =
+      1.0 * vips_image_get_width(image) * vips_image_get_height(image) > kLargestInStrips;
   return vips_tiffsave(image, path, "compression", VIPS_FOREIGN_TIFF_COMPRESSION_DEFLATE,
-                       "predictor", VIPS_FOREIGN_TIFF_PREDICTOR_HORIZONTAL, "bigtiff", big,
-                       nullptr);
+                       "predictor", VIPS_FOREIGN_TIFF_PREDICTOR_HORIZONTAL, "bigtiff", big, "tile",
+                       tile, "tile_width", 256, "tile_height", 256, nullptr);
 }
+
+std::filesystem::path tiles_of(std::filesystem::path pyramid) {
+  pyramid.replace_extension();
+  return pyramid += "_files";
+}
+
+int save_dzi(VipsImage* image, const char* path, const RasterFileOptions& options) {
+  const std::string base = std::filesystem::path(path).replace_extension().string();
+  const bool alpha = vips_image_hasalpha(image);
+  const std::string suffix = alpha ? ".png" : ".jpg[Q=" + std::to_string(options.quality) + "]";
+  return vips_dzsave(image, base.c_str(), "suffix", suffix.c_str(), "tile_size", 254, "overlap", 1,
+                     nullptr);
+}
+
+/// Moves a finished pyramid's folder of tiles to its place, or removes an unfinished one's.
+class PyramidTiles {
+ public:
+  PyramidTiles(const std::filesystem::path& temporary, const std::filesystem::path& target)
+      : from_(tiles_of(temporary)), to_(tiles_of(target)) {
+    if (std::filesystem::exists(to_) && !std::filesystem::exists(target)) {
+      throw Error(
+          ErrorCode::io_failure,
+          "cannot write '" + target.string() + "': the folder '" + to_.string() +
+              "' is there already and belongs to no pyramid; move it or choose another name");
+    }
+  }
+  ~PyramidTiles() {
+    std::error_code ignored;
+    std::filesystem::remove_all(from_, ignored);
+  }
+  PyramidTiles(const PyramidTiles&) = delete;
+  PyramidTiles& operator=(const PyramidTiles&) = delete;
+
+  void keep() const {
+    std::error_code error;
+    std::filesystem::remove_all(to_, error);
+    if (!error) std::filesystem::rename(from_, to_, error);
+    if (error) {
+      throw Error(ErrorCode::io_failure, "cannot write '" + to_.string() + "': " + error.message() +
+                                             "; choose another path");
+    }
+  }
+
+ private:
+  std::filesystem::path from_, to_;
+};
 
 constexpr RasterFormat kFormats[] = {
     {{".png", ".png"}, "PNG", true, true, 10'000'000, save_png},
     {{".jpg", ".jpeg"}, "JPEG", false, false, 65'500, save_jpeg},
     {{".webp", ".webp"}, "WebP", true, false, 16'383, save_webp},
     {{".tif", ".tiff"}, "TIFF", true, true, 10'000'000, save_tiff},
+    {{".dzi", ".dzi"}, "deep-zoom", true, false, 10'000'000, save_dzi},
 };
 
 const RasterFormat* find_format(const std::string& ending) {
@@ -112,42 +162,17 @@ void start_vips() {
 /// Draws for libvips; keeps what draw() throws, since no exception may pass through C code.
 struct Drawing {
   const RasterStream& stream;
-  std::array<float, 3> background;
-  int channels;
-  int bits;
+  PixelLayout layout;
   std::exception_ptr failure;
 };
-
-template <class Sample>
-void quantize(const float* pixel, int from, const Drawing& drawing, float full, Sample* out) {
-  const float alpha = from == 4 ? std::clamp(pixel[3], 0.0f, 1.0f) : 1.0f;
-  const bool flatten = drawing.channels == 3;
-  for (int c = 0; c < 3; ++c) {
-    float value = std::clamp(pixel[c], 0.0f, 1.0f);
-    if (flatten) value = value * alpha + drawing.background[c] * (1 - alpha);
-    out[c] = static_cast<Sample>(value * full + 0.5f);
-  }
-  if (!flatten) out[3] = static_cast<Sample>(alpha * full + 0.5f);
-}
 
 int generate(VipsRegion* region, void*, void*, void* user_data, gboolean*) {
   auto& drawing = *static_cast<Drawing*>(user_data);
   const VipsRect& r = region->valid;
   try {
-    const Raster strip = drawing.stream.draw(r.top, r.height);
-    for (int y = 0; y < r.height; ++y) {
-      VipsPel* const row = VIPS_REGION_ADDR(region, r.left, r.top + y);
-      for (int x = 0; x < r.width; ++x) {
-        const float* pixel = strip.pixel(r.left + x, y);
-        const std::size_t at = static_cast<std::size_t>(x) * drawing.channels;
-        if (drawing.bits == 8) {
-          quantize(pixel, strip.channels, drawing, 255.0f, row + at);
-        } else {
-          quantize(pixel, strip.channels, drawing, 65535.0f,
-                   reinterpret_cast<std::uint16_t*>(row) + at);
-        }
-      }
-    }
+    // The cache below asks for whole rows.
+    drawing.stream.draw(r.top, r.height, drawing.layout,
+                        {VIPS_REGION_ADDR(region, r.left, r.top), VIPS_REGION_LSKIP(region)});
     return 0;
   } catch (...) {
     if (!drawing.failure) drawing.failure = std::current_exception();
@@ -175,10 +200,10 @@ int strip_height(const RasterStream& stream) {
 VipsImagePtr as_vips_image(Drawing& drawing) {
   const RasterStream& stream = drawing.stream;
   const VipsImagePtr drawn(vips_image_new());
-  vips_image_init_fields(
-      drawn.get(), stream.width, stream.height, drawing.channels,
-      drawing.bits == 8 ? VIPS_FORMAT_UCHAR : VIPS_FORMAT_USHORT, VIPS_CODING_NONE,
-      drawing.bits == 8 ? VIPS_INTERPRETATION_sRGB : VIPS_INTERPRETATION_RGB16, 1.0, 1.0);
+  const bool narrow = drawing.layout.type == SampleType::uint8;
+  vips_image_init_fields(drawn.get(), stream.width, stream.height, drawing.layout.channels,
+                         narrow ? VIPS_FORMAT_UCHAR : VIPS_FORMAT_USHORT, VIPS_CODING_NONE,
+                         narrow ? VIPS_INTERPRETATION_sRGB : VIPS_INTERPRETATION_RGB16, 1.0, 1.0);
   if (!tag_as_srgb(drawn.get()) ||
       vips_image_pipelinev(drawn.get(), VIPS_DEMAND_STYLE_THINSTRIP, nullptr) != 0 ||
       vips_image_generate(drawn.get(), nullptr, generate, nullptr, nullptr, &drawing) != 0) {
@@ -201,18 +226,25 @@ void write_stream(const RasterStream& stream, const std::filesystem::path& path,
   if (!format) {
     throw Error(ErrorCode::unsupported_format,
                 "cannot write '" + path.string() +
-                    "': raster files end in .png, .jpg, .jpeg, .webp, .tif or .tiff; use one of "
-                    "these");
+                    "': raster files end in .png, .jpg, .jpeg, .webp, .tif, .tiff or .dzi; use one "
+                    "of these");
   }
   check_options(*format, stream, options);
   start_vips();
   write_atomically(path, [&](const std::filesystem::path& temporary) {
-    Drawing drawing{stream, options.background, stream.has_alpha && format->has_alpha ? 4 : 3,
-                    options.bits, nullptr};
+    Drawing drawing{stream,
+                    {options.bits == 8 ? SampleType::uint8 : SampleType::uint16,
+                     stream.has_alpha && format->has_alpha ? 4 : 3},
+                    nullptr};
+    std::optional<PyramidTiles> tiles;
+    if (format->save == save_dzi) tiles.emplace(temporary, path);
     const VipsImagePtr image = as_vips_image(drawing);
     const bool saved = image && format->save(image.get(), temporary.c_str(), options) == 0;
     if (drawing.failure) std::rethrow_exception(drawing.failure);
-    if (saved) return;
+    if (saved) {
+      if (tiles) tiles->keep();
+      return;
+    }
     char* const text = vips_error_buffer_copy();
     std::string reason(text);
     g_free(text);

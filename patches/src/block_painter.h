@@ -1,12 +1,18 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "block_parameters.h"
 #include "layer_scene.h"
 #include "outline_pixels.h"
-#include "patch_shader.h"
+#include "pixel_packer.h"
+#include "point_shader.h"
+#include "tile_outlines.h"
 
 namespace quadrille {
+
+class PatchShader;
 
 /// Draws layers into blocks of samples; one for each thread. What a sample gets does not depend on
 /// the window that it is drawn with, as long as the window lies within one block.
@@ -14,24 +20,48 @@ class BlockPainter {
  public:
   BlockPainter();
 
-  /// Draws all layers over each other; the window must not be empty. The result is valid until the
-  /// next call: premultiplied samples, rows from the top, no padding.
-  std::span<const Color> paint(const std::vector<LayerScene>& scenes, const SampleWindow& window);
+  /// Draws all layers over each other; the window must not be empty. Without alpha, which needs a
+  /// single opaque layer, samples that no patch covers are black. The result is valid until the
+  /// next call.
+  const SamplePlanes& paint(const std::vector<LayerScene>& scenes, const SampleWindow& window,
+                            bool with_alpha);
 
  private:
+  /// Points or parameters of one patch, and where their colours go.
+  struct Pending {
+    static constexpr int kRuns = 256;
+    ColorBatch colors;
+    PointRun runs[kRuns];
+    int run_count = 0;
+
+    bool has_room(int points, int runs_wanted) const {
+      return colors.count + points <= ColorBatch::kCapacity && run_count + runs_wanted <= kRuns;
+    }
+  };
+  static constexpr int kBlocks = kBlockSide / kParameterBlock;  // in a row of a block of samples
+
   SampleWindow window_;
-  std::vector<Color> picture_, layer_;
+  bool with_alpha_ = true;
+  std::vector<float> memory_[2];
+  SamplePlanes picture_, layer_;
+  TileOutlines outlines_;
   std::vector<SampleSpan> spans_;
   OutlinePixels outline_;
   std::vector<OutlinePixels::Share> shares_;
-  PatchShader::Batch batch_;
-  std::array<Color*, PatchShader::kBatch> target_;
-  std::array<float, PatchShader::kBatch> weight_;
+  std::unique_ptr<Pending> points_, parameters_;
+  std::vector<BlockRow> rows_;
 
   int width() const { return window_.x_end - window_.x_begin; }
+  int channels() const { return with_alpha_ ? 4 : 3; }
+  void clear(SamplePlanes& planes);
+  void merge_layer();
   void paint_layer(const LayerScene& scene, std::span<const int> patches);
-  /// Of the spans found within the window `bounds`.
-  void paint_interior(const SampleWindow& bounds, PatchShader& shader);
+  /// Of the spans found in the window.
+  void paint_interior(const LayerScene& scene, int patch);
+  void paint_points(PatchShader& shader, const SampleSpan& span);
+  void paint_blocks(PatchShader& shader, const SampleWindow& part);
+  void paint_block(PatchShader& shader, int x, int y, std::span<const SampleSpan> spans, bool fit);
+  void flush(Pending& pending, PatchShader& shader);
   /// Of the shares found.
   void paint_outline(PatchShader& shader);
 };

@@ -1,13 +1,15 @@
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
 
+#include "layer_scene.h"
 #include "quadrille/render.h"
 #include "tile_grid.h"
 
 namespace quadrille {
 namespace {
 
-/// Counts the coverage of tiles; one for each thread.
+/// Counts the coverage of a tile.
 class CoverageCounter {
  public:
   CoverageReport count(const std::vector<LayerScene>& scenes, const SampleWindow& window) {
@@ -47,16 +49,25 @@ CoverageReport count_coverage(const VectorImage& image, const RenderOptions& opt
   // One sample per pixel, whatever the scale.
   for (int axis = 0; axis < 2; ++axis) frame.scale[axis] /= frame.box[axis];
   frame.box = {1, 1};
-  const auto scenes = prepare_layers(image, frame);
+  WorkArena arena;
+  arena.set_threads(context);
+  std::vector<LayerScene> scenes;
+  for (const Layer& layer : image.layers) {
+    scenes.emplace_back(layer, arena)
+        .prepare(frame.scale, samples_of(frame.region, frame.box), arena);
+  }
+  const TileGrid grid(frame);
   std::mutex adding;
   CoverageReport total;
-  for_each_tile<CoverageCounter>(
-      TileGrid(frame), context, [&](const PixelRegion& tile, CoverageCounter& counter) {
-        const CoverageReport part = counter.count(scenes, samples_of(tile, frame.box));
-        const std::lock_guard lock(adding);
-        total.uncovered += part.uncovered;
-        total.doubly_covered += part.doubly_covered;
-      });
+  std::size_t done = 0;
+  arena.for_each(grid.size(), [&](std::size_t index) {
+    const CoverageReport part =
+        CoverageCounter().count(scenes, samples_of(grid.tile(index), frame.box));
+    const std::lock_guard lock(adding);
+    total.uncovered += part.uncovered;
+    total.doubly_covered += part.doubly_covered;
+    context.progress("coverage", static_cast<double>(++done) / static_cast<double>(grid.size()));
+  });
   return total;
 }
 

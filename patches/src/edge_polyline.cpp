@@ -55,24 +55,31 @@ FixedPoint to_fixed(const Vector2d& p) {
           static_cast<std::int64_t>((p.y() * kFixedOne + kRound) - kRound)};
 }
 
-}  // namespace
-
-void append_edge_polyline(const PatchMesh& patches, int e, const Eigen::Affine2d& to_samples,
-                          std::vector<FixedPoint>& points) {
+Curve curve_of(const PatchMesh& patches, int e, const Eigen::Affine2d& to_samples) {
   const QuadMesh& mesh = patches.mesh;
   const int h = mesh.halfedge(e);
-  const Curve c = {to_samples * mesh.vertices[mesh.origin(h)],
-                   to_samples * mesh.vertices[mesh.tip(h)],
-                   to_samples.linear() * patches.edge_tangents[e][0],
-                   to_samples.linear() * patches.edge_tangents[e][1]};
-  points.push_back(to_fixed(c.p0));
-  const int n = 1 << subdivision(c);
-  const double step = 1.0 / n;
-  for (int i = 1; i < n; ++i) {
-    const auto b = hermite_basis(i * step);
-    points.push_back(to_fixed(c.p0 * b[0] + c.t0 * b[1] + c.p1 * b[2] + c.t1 * b[3]));
+  return {to_samples * mesh.vertices[mesh.origin(h)], to_samples * mesh.vertices[mesh.tip(h)],
+          to_samples.linear() * patches.edge_tangents[e][0],
+          to_samples.linear() * patches.edge_tangents[e][1]};
+}
+
+}  // namespace
+
+int edge_piece_count(const PatchMesh& patches, int e, const Eigen::Affine2d& to_samples) {
+  return 1 << subdivision(curve_of(patches, e, to_samples));
+}
+
+void write_edge_polyline(const PatchMesh& patches, int e, const Eigen::Affine2d& to_samples,
+                         std::span<FixedPoint> points) {
+  const Curve c = curve_of(patches, e, to_samples);
+  const std::size_t n = points.size() - 1;
+  points[0] = to_fixed(c.p0);
+  const double step = 1.0 / static_cast<double>(n);
+  for (std::size_t i = 1; i < n; ++i) {
+    const auto b = hermite_basis(static_cast<double>(i) * step);
+    points[i] = to_fixed(c.p0 * b[0] + c.t0 * b[1] + c.p1 * b[2] + c.t1 * b[3]);
   }
-  points.push_back(to_fixed(c.p1));
+  points[n] = to_fixed(c.p1);
 }
 
 }  // namespace quadrille

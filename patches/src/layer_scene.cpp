@@ -9,49 +9,79 @@
 namespace quadrille {
 namespace {
 
-Eigen::Affine2d sample_map(const Layer& layer, const std::array<double, 2>& scale) {
+constexpr std::size_t kRange = 512;            // patches worked on at a time
+constexpr std::size_t kMostPoints = 1u << 22;  // of outlines that are kept, 16 bytes each
+
+}  // namespace
+
+LayerScene::LayerScene(const Layer& layer, WorkArena& arena)
+    : layer_(layer), boxes_(layer.patches.patch_count()), scan_(layer.patches) {
   if (!layer.transform.matrix().allFinite()) {
     throw Error(ErrorCode::invalid_argument, "the transform of layer '" + layer.name +
                                                  "' is not finite; give it finite numbers");
   }
-  return Eigen::Scaling(scale[0], scale[1]) * layer.transform;
+  arena.for_each((boxes_.size() + kRange - 1) / kRange, [&](std::size_t r) {
+    const PatchMesh& patches = layer.patches;
+    const int end = static_cast<int>(std::min(boxes_.size(), (r + 1) * kRange));
+    for (int q = static_cast<int>(r * kRange); q < end; ++q) {
+      Eigen::Array2d low(INFINITY, INFINITY), high = -low;
+      for (int k = 0; k < 4; ++k) {
+        const int h = 4 * q + k;
+        const Eigen::Array2d ends[2] = {patches.mesh.vertices[patches.mesh.origin(h)],
+                                        patches.mesh.vertices[patches.mesh.tip(h)]};
+        for (const Eigen::Array2d& p :
+             {ends[0], Eigen::Array2d(ends[0] + tangent_along(patches, h, 0).array() / 3),
+              Eigen::Array2d(ends[1] - tangent_along(patches, h, 1).array() / 3)}) {
+          low = low.min(p), high = high.max(p);
+          if (!p.isFinite().all()) low.setConstant(NAN);
+        }
+        if (!low.isFinite().all()) break;
+      }
+      boxes_[q] = {low, high};
+    }
+  });
 }
 
 /// Patches whose control points' bounding box meets the window. A map without an inverse leaves
 /// nothing to see.
-std::vector<int> patches_in_window(const PatchMesh& patches, const Eigen::Affine2d& to_samples,
-                                   const SampleWindow& window) {
-  std::vector<int> found;
-  if (to_samples.linear().determinant() == 0) return found;
-  const Eigen::Array2d window_low(window.x_begin, window.y_begin);
-  const Eigen::Array2d window_high(window.x_end, window.y_end);
-  for (int q = 0; q < patches.patch_count(); ++q) {
-    Eigen::Array2d low(INFINITY, INFINITY), high = -low;
-    for (int k = 0; k < 4; ++k) {
-      const int h = 4 * q + k;
-      const Eigen::Vector2d ends[2] = {patches.mesh.vertices[patches.mesh.origin(h)],
-                                       patches.mesh.vertices[patches.mesh.tip(h)]};
-      const Eigen::Array2d control[3] = {to_samples * ends[0],
-                                         to_samples * (ends[0] + tangent_along(patches, h, 0) / 3),
-                                         to_samples * (ends[1] - tangent_along(patches, h, 1) / 3)};
-      for (const Eigen::Array2d& p : control) low = low.min(p), high = high.max(p);
-    }
+void LayerScene::find_wanted() {
+  wanted_.clear();
+  if (to_samples_.linear().determinant() == 0) return;
+  // Bounds of the mapped box: its middle, and half its size times the map's absolute values.
+  const Eigen::Matrix2d spread = to_samples_.linear().cwiseAbs();
+  const Eigen::Array2d window_low(window_.x_begin - 1, window_.y_begin - 1);
+  const Eigen::Array2d window_high(window_.x_end + 1, window_.y_end + 1);
+  for (int q = 0; q < static_cast<int>(boxes_.size()); ++q) {
+    const Box& box = boxes_[q];
+    const Eigen::Array2d middle = to_samples_ * ((box.low + box.high) / 2).matrix();
+    const Eigen::Array2d reach = spread * ((box.high - box.low) / 2).matrix();
     // Written so that numbers that are not finite stay in and are reported.
-    const bool outside = (high < window_low - 1).any() || (low > window_high + 1).any();
-    if (!outside) found.push_back(q);
+    const bool outside =
+        (middle + reach < window_low).any() || (middle - reach > window_high).any();
+    if (!outside) wanted_.push_back(q);
   }
-  return found;
 }
 
-}  // namespace
+void LayerScene::prepare(const std::array<double, 2>& scale, const SampleWindow& window,
+                         WorkArena& arena) {
+  if (scale == scale_ && window == window_) return;
+  if (scale != scale_ || scan_.point_count() > kMostPoints) {
+    scale_ = {0, 0};  // until everything is done
+    to_samples_ = Eigen::Scaling(scale[0], scale[1]) * layer_.transform;
+    from_samples_ = to_samples_.inverse();
+    scan_.start(to_samples_);
+  }
+  window_ = window;
+  find_wanted();
+  scale_ = {0, 0};
+  scan_.add(wanted_, [&](std::size_t count, const auto& body) { arena.for_each(count, body); });
+  bins_.fill(scan_, wanted_, window);
+  scale_ = scale;
+}
 
-LayerScene::LayerScene(const Layer& layer, const std::array<double, 2>& scale,
-                       const SampleWindow& window)
-    : layer_(layer),
-      to_samples_(sample_map(layer, scale)),
-      from_samples_(to_samples_.inverse()),
-      wanted_(patches_in_window(layer.patches, to_samples_, window)),
-      scan_(layer.patches, to_samples_, wanted_),
-      bins_(scan_, wanted_, window) {}
+void LayerScene::prepare_programs(WorkArena& arena) {
+  programs_.add(layer_.patches, wanted_,
+                [&](std::size_t count, const auto& body) { arena.for_each(count, body); });
+}
 
 }  // namespace quadrille

@@ -4,20 +4,31 @@
 #include <vector>
 
 #include "patch_bins.h"
+#include "patch_program.h"
 #include "patch_scan.h"
 #include "quadrille/vector_image.h"
+#include "work_arena.h"
 
 namespace quadrille {
 
-/// A layer prepared for scanning in a window of samples: its outlines there, and which patches each
-/// block sees. Takes one quick test of every patch and further work only for those in the window.
+/// A layer prepared for drawing in a window of samples: its outlines there, and which patches each
+/// block sees. Moving to another window takes one quick test of every patch and further work only
+/// for patches that were not seen before at this scale.
 class LayerScene {
  public:
-  /// Keeps a reference to the layer. Throws what append_edge_polyline throws.
-  LayerScene(const Layer& layer, const std::array<double, 2>& scale, const SampleWindow& window);
+  /// Keeps a reference to the layer. Throws Error{invalid_argument} for a transform that is not
+  /// finite.
+  LayerScene(const Layer& layer, WorkArena& arena);
+
+  /// Samples per pixel of the picture along both axes, and where to draw. Throws what
+  /// write_edge_polyline() throws.
+  void prepare(const std::array<double, 2>& scale, const SampleWindow& window, WorkArena& arena);
+  /// Makes the programs of the patches in the window.
+  void prepare_programs(WorkArena& arena);
 
   const PatchMesh& patches() const { return layer_.patches; }
   const PatchScan& scan() const { return scan_; }
+  const PatchProgram& program(int patch) const { return programs_.of(patch); }
   const Eigen::Affine2d& to_samples() const { return to_samples_; }
   const Eigen::Affine2d& from_samples() const { return from_samples_; }
 
@@ -26,11 +37,22 @@ class LayerScene {
   std::span<const int> patches_at(const SampleWindow& part) const { return bins_.at(part); }
 
  private:
+  /// Bounding box of a patch's outline's control points, in mesh coordinates.
+  struct Box {
+    Eigen::Array2d low, high;
+  };
+
   const Layer& layer_;
+  std::vector<Box> boxes_;  // #Q
+  std::array<double, 2> scale_ = {0, 0};
+  SampleWindow window_;
   Eigen::Affine2d to_samples_, from_samples_;
   std::vector<int> wanted_;
   PatchScan scan_;
   PatchBins bins_;
+  PatchPrograms programs_;
+
+  void find_wanted();
 };
 
 }  // namespace quadrille

@@ -117,7 +117,8 @@ MixedPixels::MixedPixels(const PatchMesh& patches, const Raster& picture, WedgeR
   const PatchScan scan(patches, SampleGrid{});
   std::vector<int> all(patches.patch_count());
   std::iota(all.begin(), all.end(), 0);
-  const PatchBins bins(scan, all, whole);
+  PatchBins bins;
+  bins.fill(scan, all, whole);
   const int columns = (picture.width + kBlockSide - 1) / kBlockSide;
   const int lines = (picture.height + kBlockSide - 1) / kBlockSide;
   std::vector<BlockRows> blocks(static_cast<std::size_t>(columns) * lines);

@@ -9,9 +9,10 @@ int floor_block(int sample) {
 
 }  // namespace
 
-PatchBins::PatchBins(const PatchScan& scan, std::span<const int> wanted, const SampleWindow& window)
-    : blocks_{floor_block(window.x_begin), floor_block(window.y_begin),
-              floor_block(window.x_end - 1) + 1, floor_block(window.y_end - 1) + 1} {
+void PatchBins::fill(const PatchScan& scan, std::span<const int> wanted,
+                     const SampleWindow& window) {
+  blocks_ = {floor_block(window.x_begin), floor_block(window.y_begin),
+             floor_block(window.x_end - 1) + 1, floor_block(window.y_end - 1) + 1};
   const auto for_each_block = [&](const auto& visit) {
     for (const int q : wanted) {
       const SampleWindow s = scan.touched(q);
@@ -29,8 +30,8 @@ PatchBins::PatchBins(const PatchScan& scan, std::span<const int> wanted, const S
   for_each_block([&](int, std::size_t block) { ++begin_[block + 1]; });
   for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
   patches_.resize(begin_.back());
-  std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-  for_each_block([&](int q, std::size_t block) { patches_[next[block]++] = q; });
+  next_.assign(begin_.begin(), begin_.end() - 1);
+  for_each_block([&](int q, std::size_t block) { patches_[next_[block]++] = q; });
 }
 
 std::span<const int> PatchBins::at(const SampleWindow& part) const {

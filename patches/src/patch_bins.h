@@ -14,8 +14,8 @@ constexpr int kBlockSide = 128;
 /// Which patches each block of a window of samples sees.
 class PatchBins {
  public:
-  /// Of the patches `wanted`, given in ascending order.
-  PatchBins(const PatchScan& scan, std::span<const int> wanted, const SampleWindow& window);
+  /// Sorts the patches `wanted`, given in ascending order; keeps memory from time to time.
+  void fill(const PatchScan& scan, std::span<const int> wanted, const SampleWindow& window);
 
   /// The patches that touch samples' squares of the block that holds `part`, in ascending order.
   /// The part must lie within one block and within the window.
@@ -24,6 +24,7 @@ class PatchBins {
  private:
   SampleWindow blocks_;             // of the window, in blocks
   std::vector<std::size_t> begin_;  // #blocks + 1
+  std::vector<std::size_t> next_;   // #blocks
   std::vector<int> patches_;
 
   std::size_t columns() const { return blocks_.x_end - blocks_.x_begin; }

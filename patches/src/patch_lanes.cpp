@@ -35,34 +35,9 @@ QUADRILLE_INLINE void evaluate(const float* c, const Lanes& u, const Lanes& v, S
 }
 
 template <class T>
-QUADRILLE_INLINE void bicubic(const float* c, const T& u, const T& v, T& value) {
-  T row[4];
-#pragma GCC unroll 4
-  for (int j = 0; j < 4; ++j) {
-    row[j] = ((c[4 * j + 3] * u + c[4 * j + 2]) * u + c[4 * j + 1]) * u + c[4 * j];
-  }
-  value = ((row[3] * v + row[2]) * v + row[1]) * v + row[0];
-}
-
-template <class T>
 QUADRILLE_INLINE void clamp(T& x, const T& low, const T& high) {
   x = x > low ? x : low;
   x = x < high ? x : high;
-}
-
-template <class T>
-QUADRILLE_INLINE void colors(const PatchCoefficients& c, bool opaque, const T& u, const T& v,
-                             T (&color)[4]) {
-  const T zero = {}, one = zero + 1.0f;
-  color[3] = one;
-  if (!opaque) {
-    bicubic(c.color[3], u, v, color[3]);
-    clamp(color[3], zero, one);
-  }
-  for (int k = 0; k < 3; ++k) {
-    bicubic(c.color[k], u, v, color[k]);
-    clamp(color[k], zero, color[3]);
-  }
 }
 
 QUADRILLE_INLINE void absolute(const Lanes& x, Lanes& result) { result = x < 0 ? -x : x; }
@@ -116,18 +91,17 @@ QUADRILLE_INLINE void invert(const GeometryCoefficients& c, const Lanes& given_x
 
 }  // namespace
 
-QUADRILLE_MULTIVERSION
-void shade_lanes(const PatchCoefficients& c, bool opaque, const LaneBatch& batch) {
-  for (int i = 0; i < batch.count; i += kLaneCount) {
-    Lanes given_x, given_y, u, v, color[4];
-    std::memcpy(&given_x, batch.x + i, sizeof given_x);
-    std::memcpy(&given_y, batch.y + i, sizeof given_y);
-    Mask found;
-    invert(c.geometry, given_x, given_y, u, v, found);
-    colors(c, opaque, u, v, color);
-    for (int k = 0; k < 4; ++k) std::memcpy(batch.color[k] + i, &color[k], sizeof color[k]);
-    std::memcpy(batch.found + i, &found, sizeof found);
+GeometryCoefficients geometry_coefficients(const NormalizedPatch& normalized,
+                                           const Eigen::Affine2d& map) {
+  GeometryCoefficients c;
+  for (int d = 0; d < 2; ++d) {
+    for (int k = 0; k < 3; ++k) c.map[d][k] = static_cast<float>(map(d, k));
+    for (int k = 0; k < 6; ++k) c.start[d][k] = static_cast<float>(normalized.start[k][d]);
+    for (int k = 0; k < 16; ++k) {
+      c.position[d][k] = static_cast<float>(normalized.position[k / 4][k % 4][d]);
+    }
   }
+  return c;
 }
 
 QUADRILLE_MULTIVERSION
@@ -142,10 +116,6 @@ void invert_lanes(const GeometryCoefficients& c, const PointBatch& batch) {
     std::memcpy(batch.v + i, &v, sizeof v);
     std::memcpy(batch.found + i, &found, sizeof found);
   }
-}
-
-void shade_at(const PatchCoefficients& c, bool opaque, float u, float v, float (&color)[4]) {
-  colors(c, opaque, u, v, color);
 }
 
 }  // namespace quadrille

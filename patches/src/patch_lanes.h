@@ -1,6 +1,9 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "lanes.h"
+#include "patch_inverse.h"
 
 namespace quadrille {
 
@@ -11,10 +14,9 @@ struct GeometryCoefficients {
   float position[2][16];
 };
 
-struct PatchCoefficients {
-  GeometryCoefficients geometry;
-  float color[4][16];
-};
+/// The normalized patch as floats; `map` takes given points to normalized ones.
+GeometryCoefficients geometry_coefficients(const NormalizedPatch& normalized,
+                                           const Eigen::Affine2d& map);
 
 /// Points in, parameters out; arrays have `count` elements, a multiple of kLaneCount.
 struct PointBatch {
@@ -24,24 +26,9 @@ struct PointBatch {
   int* found;  ///< not 0 where the point's parameters were found in or next to the patch
 };
 
-/// Points in, premultiplied colours out; arrays have `count` elements, a multiple of kLaneCount.
-struct LaneBatch {
-  int count;
-  const float *x, *y;
-  float* color[4];
-  int* found;  ///< not 0 where the point's parameters were found in or next to the patch
-};
-
-/// Inverts the geometry by Newton's method and evaluates the colour, kLaneCount points at a time. A
-/// lane stops moving when it has converged, so no point's result depends on another's; all
-/// instruction sets give the same bits. Colours are clamped to 0 <= r, g, b <= alpha <= 1; with
-/// `opaque` alpha is 1.
-void shade_lanes(const PatchCoefficients& c, bool opaque, const LaneBatch& batch);
-
-/// The inversion alone; the same arithmetic.
+/// Inverts the geometry by Newton's method, kLaneCount points at a time. A lane stops moving when
+/// it has converged, so no point's result depends on another's; all instruction sets give the same
+/// bits.
 void invert_lanes(const GeometryCoefficients& c, const PointBatch& batch);
-
-/// The colour at given parameters, the same arithmetic for a single point.
-void shade_at(const PatchCoefficients& c, bool opaque, float u, float v, float (&color)[4]);
 
 }  // namespace quadrille

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "patch_shader.h"
+#include "patch_lanes.h"
 #include "picture_sampling.h"
 
 namespace quadrille {

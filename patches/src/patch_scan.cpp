@@ -19,13 +19,6 @@ struct ScanRaster {
   int columns, rows;
 };
 
-/// Index of the first sample whose centre is not left of (not above) a coordinate:
-/// ceil(coordinate / unit - 1/2).
-std::int64_t first_center(std::int64_t coordinate, int bits) {
-  const std::int64_t half = std::int64_t{1} << (bits - 1);
-  return (coordinate + half - 1) >> bits;
-}
-
 /// Walks a segment from row to row in whole numbers: the crossing in row r is in front of sample
 /// ceil(((x0 - half) dy + (center_r - y0) dx) / (unit dy)).
 template <class Wide>
@@ -120,34 +113,64 @@ SampleWindow intersection(const SampleWindow& a, const SampleWindow& b) {
           std::min(a.x_end, b.x_end), std::min(a.y_end, b.y_end)};
 }
 
+PatchScan::PatchScan(const PatchMesh& patches) : patches_(patches) {}
+
 PatchScan::PatchScan(const PatchMesh& patches, const SampleGrid& grid)
     : PatchScan(patches,
                 Eigen::Translation2d(grid.offset.matrix()) * Eigen::Scaling(grid.scale.matrix())) {}
 
 PatchScan::PatchScan(const PatchMesh& patches, const Eigen::Affine2d& to_samples)
-    : PatchScan(patches, to_samples, all_patches(patches)) {}
-
-PatchScan::PatchScan(const PatchMesh& patches, const Eigen::Affine2d& to_samples,
-                     std::span<const int> wanted)
-    : polyline_begin_(patches.mesh.edge_count(), 0),
-      polyline_end_(patches.mesh.edge_count(), 0),
-      boxes_(patches.patch_count()),
-      patches_(patches),
-      orientation_(to_samples.linear().determinant() < 0 ? -1 : 1) {
-  for (const int q : wanted) evaluate(q, to_samples);
+    : PatchScan(patches) {
+  start(to_samples);
+  add(all_patches(patches), [](std::size_t count, const auto& body) {
+    for (std::size_t i = 0; i < count; ++i) body(i);
+  });
 }
 
-void PatchScan::evaluate(int patch, const Eigen::Affine2d& to_samples) {
+void PatchScan::start(const Eigen::Affine2d& to_samples) {
+  to_samples_ = to_samples;
+  orientation_ = to_samples.linear().determinant() < 0 ? -1 : 1;
+  lines_.assign(patches_.mesh.edge_count(), {});
+  boxes_.resize(patches_.patch_count());
+  points_.clear();
+}
+
+void PatchScan::find_missing(std::span<const int> wanted) {
+  missing_.clear();
+  for (const int q : wanted) {
+    for (int k = 0; k < 4; ++k) {
+      Line& line = lines_[patches_.mesh.edge(4 * q + k)];
+      if (line.count != 0) continue;
+      line.count = -1;
+      missing_.push_back(patches_.mesh.edge(4 * q + k));
+    }
+  }
+}
+
+void PatchScan::make_room() {
+  std::size_t end = points_.size();
+  for (const int e : missing_) {
+    lines_[e].begin = end;
+    end += lines_[e].count;
+  }
+  points_.resize(end);
+}
+
+void PatchScan::count_points(int e) {
+  lines_[e].count = edge_piece_count(patches_, e, to_samples_) + 1;
+}
+
+void PatchScan::write_line(int e) {
+  const Line& line = lines_[e];
+  write_edge_polyline(patches_, e, to_samples_,
+                      {points_.data() + line.begin, static_cast<std::size_t>(line.count)});
+}
+
+void PatchScan::bound(int patch) {
   constexpr std::int64_t kFar = std::int64_t{1} << 62;
   FixedPoint low{kFar, kFar}, high{-kFar, -kFar};
   for (int k = 0; k < 4; ++k) {
-    const int e = patches_.mesh.edge(4 * patch + k);
-    if (polyline_end_[e] == 0) {
-      polyline_begin_[e] = points_.size();
-      append_edge_polyline(patches_, e, to_samples, points_);
-      polyline_end_[e] = points_.size();
-    }
-    for (const FixedPoint& p : polyline(e)) {
+    for (const FixedPoint& p : polyline(patches_.mesh.edge(4 * patch + k))) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +24,7 @@ struct SampleGrid {
 struct SampleWindow {
   int x_begin = 0, y_begin = 0, x_end = 0, y_end = 0;
   bool empty() const { return x_begin >= x_end || y_begin >= y_end; }
+  bool operator==(const SampleWindow&) const = default;
 };
 
 /// The part that both windows cover; empty when there is none.
@@ -39,14 +42,34 @@ struct SampleSpan {
 /// on its right or, on a horizontal edge, below.
 class PatchScan {
  public:
-  /// Evaluates all edges; grid must give |coordinates| < 2^31 samples, see append_edge_polyline for
+  /// Evaluates all edges; grid must give |coordinates| < 2^31 samples, see write_edge_polyline for
   /// the errors. Keeps a reference to the patches.
   PatchScan(const PatchMesh& patches, const SampleGrid& grid);
-  /// The same for any affine map from mesh coordinates to samples. With `wanted` only these
-  /// patches can be scanned, and only their edges are evaluated.
+  /// The same for any affine map from mesh coordinates to samples.
   PatchScan(const PatchMesh& patches, const Eigen::Affine2d& to_samples);
-  PatchScan(const PatchMesh& patches, const Eigen::Affine2d& to_samples,
-            std::span<const int> wanted);
+  /// Evaluates nothing yet: start() and add() must follow.
+  explicit PatchScan(const PatchMesh& patches);
+
+  /// Forgets all edges and sets the map.
+  void start(const Eigen::Affine2d& to_samples);
+  /// Evaluates those edges of the patches `wanted` that are missing; patches can be scanned once
+  /// they were wanted. `for_each(count, body)` calls body(0) ... body(count - 1).
+  template <class ForEach>
+  void add(std::span<const int> wanted, const ForEach& for_each) {
+    constexpr std::size_t kRange = 512;
+    const auto in_ranges = [&](std::span<const int> numbers, const auto& body) {
+      for_each((numbers.size() + kRange - 1) / kRange, [&](std::size_t r) {
+        const std::size_t end = std::min(numbers.size(), (r + 1) * kRange);
+        for (std::size_t i = r * kRange; i < end; ++i) body(numbers[i]);
+      });
+    };
+    find_missing(wanted);
+    in_ranges(missing_, [&](int e) { count_points(e); });
+    make_room();
+    in_ranges(missing_, [&](int e) { write_line(e); });
+    in_ranges(wanted, [&](int q) { bound(q); });
+  }
+  std::size_t point_count() const { return points_.size(); }
 
   const PatchMesh& patches() const { return patches_; }
 
@@ -73,18 +96,32 @@ class PatchScan {
 
   /// The edge as it is scanned, from the origin to the tip of its half-edge.
   std::span<const FixedPoint> polyline(int edge) const {
-    return {points_.data() + polyline_begin_[edge], points_.data() + polyline_end_[edge]};
+    const Line& line = lines_[edge];
+    return {points_.data() + line.begin, static_cast<std::size_t>(line.count)};
   }
 
+  /// Turning direction of outlines after the map: 1, or -1 when it mirrors.
+  int orientation() const { return orientation_; }
+
  private:
-  std::vector<std::size_t> polyline_begin_, polyline_end_;  // #E; 0 where not evaluated
+  struct Line {
+    std::size_t begin = 0;
+    int count = 0;  ///< of points; 0 where not evaluated
+  };
+
+  const PatchMesh& patches_;
+  Eigen::Affine2d to_samples_ = Eigen::Affine2d::Identity();
+  int orientation_ = 1;
+  std::vector<Line> lines_;  // #E
   std::vector<FixedPoint> points_;
   std::vector<std::array<FixedPoint, 2>> boxes_;  // #Q; corners of the outlines' bounding boxes
-  const PatchMesh& patches_;
-  /// Turning direction of outlines after the map: 1, or -1 when it mirrors.
-  int orientation_ = 1;
+  std::vector<int> missing_;                      // edges
 
-  void evaluate(int patch, const Eigen::Affine2d& to_samples);
+  void find_missing(std::span<const int> wanted);
+  void count_points(int e);
+  void make_room();
+  void write_line(int e);
+  void bound(int patch);
 };
 
 }  // namespace quadrille

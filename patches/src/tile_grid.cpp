@@ -25,13 +25,4 @@ PixelRegion TileGrid::tile(std::size_t index) const {
           std::min(top + side_[1], r.y + r.height) - y};
 }
 
-std::vector<LayerScene> prepare_layers(const VectorImage& image, const OutputFrame& frame) {
-  std::vector<LayerScene> scenes;
-  scenes.reserve(image.layers.size());
-  for (const Layer& layer : image.layers) {
-    scenes.emplace_back(layer, frame.scale, samples_of(frame.region, frame.box));
-  }
-  return scenes;
-}
-
 }  // namespace quadrille

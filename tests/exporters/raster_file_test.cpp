@@ -162,17 +162,18 @@ TEST_F(RasterFile, TellsWhatItCannotWrite) {
 
 TEST_F(RasterFile, StripsJoinSeamlesslyAndComeOnce) {
   constexpr int kWidth = 800, kHeight = 410;
-  const auto value = [](int x, int y) { return static_cast<float>((x + 3 * y) % 256) / 255; };
+  const auto value = [](int x, int y) { return static_cast<std::uint8_t>((x + 3 * y) % 256); };
   std::vector<int> drawn(kHeight, 0);
-  RasterStream stream{kWidth, kHeight, false, [&](int y, int rows) {
-                        Raster strip(kWidth, rows, 3);
+  RasterStream stream{kWidth, kHeight, false,
+                      [&](int y, int rows, const PixelLayout& layout, const PixelBuffer& buffer) {
+                        EXPECT_TRUE(layout == (PixelLayout{SampleType::uint8, 3}));
                         for (int j = 0; j < rows; ++j) {
                           ++drawn[y + j];
-                          for (int x = 0; x < kWidth; ++x) {
-                            std::fill_n(strip.pixel(x, j), 3, value(x, y + j));
-                          }
+                          auto* const row =
+                              static_cast<std::uint8_t*>(buffer.pixels) + j * buffer.row_bytes;
+                          for (int x = 0; x < kWidth; ++x)
+                            std::fill_n(row + 3 * x, 3, value(x, y + j));
                         }
-                        return strip;
                       }};
   stream.strip_pixels = 800 * 30;
   for (const char* name : {"a.tif", "a.png"}) {
@@ -181,21 +182,44 @@ TEST_F(RasterFile, StripsJoinSeamlesslyAndComeOnce) {
     EXPECT_THAT(drawn, testing::Each(1));
     const Raster loaded = load_image(folder_ / name);
     for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) ASSERT_EQ(loaded.pixel(x, y)[1], value(x, y));
+      for (int x = 0; x < kWidth; ++x) ASSERT_EQ(loaded.pixel(x, y)[1], value(x, y) / 255.0f);
     }
   }
 }
 
 TEST_F(RasterFile, WhatTheDrawingThrowsReachesTheCaller) {
-  RasterStream stream{100, 100, false,
-                      [](int, int) -> Raster { throw Error(ErrorCode::cancelled, "stopped"); }};
-  try {
-    write_stream(stream, folder_ / "a.png", {});
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::cancelled);
+  RasterStream stream{100, 100, false, [](int, int, const PixelLayout&, const PixelBuffer&) {
+                        throw Error(ErrorCode::cancelled, "stopped");
+                      }};
+  for (const char* name : {"a.png", "a.tif", "a.dzi"}) {
+    try {
+      write_stream(stream, folder_ / name, {});
+      FAIL() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::cancelled);
+    }
   }
   EXPECT_EQ(entries(), 0);
+}
+
+TEST_F(RasterFile, WritesAPyramidAndReplacesItWhole) {
+  const auto levels = [&](const char* tiles) {
+    int count = 0;
+    for (const auto& level : std::filesystem::directory_iterator(folder_ / tiles)) {
+      count += level.is_directory();
+    }
+    return count;
+  };
+  save_raster(Raster(600, 300, 3), folder_ / "a.dzi");
+  EXPECT_EQ(levels("a_files"), 11);  // sides of 1 to 600: 2^0 ... 2^10 above
+  save_raster(Raster(60, 30, 4), folder_ / "a.dzi");
+  EXPECT_EQ(levels("a_files"), 7);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "a_files" / "6" / "0_0.png"));
+  EXPECT_EQ(entries(), 2);
+  // A folder of that name that is no pyramid's stays.
+  std::filesystem::create_directory(folder_ / "b_files");
+  EXPECT_THROW(save_raster(Raster(60, 30, 3), folder_ / "b.dzi"), Error);
+  EXPECT_EQ(entries(), 3);
 }
 
 }  // namespace

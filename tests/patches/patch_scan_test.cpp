@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/random_patches.h"
+#include "tile_outlines.h"
 
 namespace quadrille {
 namespace {
@@ -266,6 +267,78 @@ TEST(PatchInverse, ComesCloseInAFoldedPatch) {
       const Eigen::Vector2d target = p.at(random.uniform(), random.uniform());
       const Eigen::Vector2d found = inverse(target);
       EXPECT_LE((p.at(found.x(), found.y()) - target).norm(), 0.02 * 18) << "trial " << trial;
+    }
+  }
+}
+
+/// Quads moved and curved so little that none folds, without a search for folds; quick to make.
+PatchMesh slightly_curved(int side, double size, std::uint32_t seed) {
+  Random random(seed);
+  PatchMesh patches = straight_patches(testing::lattice(side, side, size, size));
+  const double reach = 0.15 * size / side;
+  const auto move = [&] {
+    return Eigen::Vector2d(random.uniform(-reach, reach), random.uniform(-reach, reach));
+  };
+  for (auto& p : patches.mesh.vertices) {
+    if (p.minCoeff() > 0 && p.maxCoeff() < size) p += move();
+  }
+  for (int e = 0; e < patches.mesh.edge_count(); ++e) {
+    const int h = patches.mesh.halfedge(e);
+    const Eigen::Vector2d chord =
+        patches.mesh.vertices[patches.mesh.tip(h)] - patches.mesh.vertices[patches.mesh.origin(h)];
+    patches.edge_tangents[e] = {chord, chord};
+    if (patches.mesh.is_border(e)) continue;
+    for (auto& t : patches.edge_tangents[e]) t += move();
+  }
+  return patches;
+}
+
+TEST(PatchScan, AMillionEdgesAreTheSameFromBothSides) {
+  constexpr int kMeshes = 250, kSide = 44;  // 44 x 44 quads have some 4,000 edges
+  long long edges = 0, wrong = 0;
+  for (std::uint32_t seed = 0; seed < kMeshes; ++seed) {
+    const PatchMesh patches = slightly_curved(kSide, 200, seed);
+    Coverage coverage(200, 200);
+    const PatchScan scan(patches, SampleGrid{});
+    for (int q = 0; q < patches.patch_count(); ++q) {
+      scan.scan(q, scan.bounds(q), [&](int y, int a, int b) { coverage.add(y, a, b); });
+    }
+    wrong += coverage.outside;
+    for (const int n : coverage.count) wrong += n != 1;
+    edges += patches.mesh.edge_count();
+  }
+  EXPECT_GT(edges, 960'000);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(TileOutlines, AgreesWithTheGeneralScan) {
+  Random random(12);
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    PatchMesh patches = random_patches(5, 4, 60, 50, seed, {0.3, 1.5});
+    if (seed % 4 == 0) {  // folded and torn apart
+      for (auto& p : patches.mesh.vertices) p += Eigen::Vector2d(random.uniform(-9, 9), 0);
+    }
+    const double scale = seed % 3 == 0 ? 700 : random.uniform(0.5, 6);  // also long segments
+    SampleGrid grid;
+    grid.scale = {scale, seed % 5 == 0 ? -scale : scale};
+    grid.offset = {0, seed % 5 == 0 ? 50 * scale : 0};
+    const PatchScan scan(patches, grid);
+    TileOutlines outlines;
+    std::vector<SampleSpan> expected, found;
+    for (int trial = 0; trial < 20; ++trial) {
+      const int x = random.integer(-10, static_cast<int>(60 * scale));
+      const int y = random.integer(-10, static_cast<int>(50 * scale));
+      const SampleWindow window = {x, y, x + random.integer(1, 128), y + random.integer(1, 128)};
+      outlines.start(scan, window);
+      for (int q = 0; q < patches.patch_count(); ++q) {
+        scan.spans(q, window, 0, expected);
+        outlines.spans(q, found);
+        EXPECT_TRUE(std::equal(expected.begin(), expected.end(), found.begin(), found.end(),
+                               [](const SampleSpan& a, const SampleSpan& b) {
+                                 return a.y == b.y && a.x_begin == b.x_begin && a.x_end == b.x_end;
+                               }))
+            << "seed " << seed << " patch " << q;
+      }
     }
   }
 }

@@ -60,6 +60,32 @@ TEST(Render, AveragesPixelsOnTheOutlineOfARotatedLayer) {
   EXPECT_LE(worst, 8.0);
 }
 
+TEST(Render, AveragesOutlinesOfAllSlopesAndShifts) {
+  Random random(31);
+  double sum = 0;
+  long count = 0;
+  for (int turn = 0; turn < 24; ++turn) {
+    VectorImage image = random_image(8);
+    image.layers[0].transform = Eigen::Translation2d(36 + random.uniform(), 36 + random.uniform()) *
+                                Eigen::Rotation2Dd(turn * EIGEN_PI / 12 + 0.01) *
+                                Eigen::Translation2d(-18, -14);
+    image.width = image.height = 72;
+    const Raster r = render(image), fine = render(image, at_scale(16));
+    for (int y = 0; y < r.height; ++y) {
+      for (int x = 0; x < r.width; ++x) {
+        const Color truth = mean_of_fine(fine, x, y);
+        if (truth[3] < 1e-4 || truth[3] > 1 - 1e-4) continue;
+        const float* const p = r.pixel(x, y);
+        const Color drawn(p[0] * p[3], p[1] * p[3], p[2] * p[3], p[3]);
+        sum += 255 * (drawn - truth).abs().mean();
+        ++count;
+      }
+    }
+  }
+  ASSERT_GT(count, 3000);
+  EXPECT_LE(sum / static_cast<double>(count), 1.0);
+}
+
 TEST(Render, DoesNotTouchAnOutlineBetweenPixels) {
   const VectorImage image = picture_of({rectangle(3, 2, 6, 5, Color(0, 1, 0, 1))}, 12, 10);
   for (const double scale : {1.0, 3.0}) {

@@ -108,6 +108,32 @@ TEST(Render, CountsEveryPixelOnce) {
   }
 }
 
+TEST(Render, CoversEveryPixelOnceOnManyMeshes) {
+  Random random(77);
+  for (std::uint32_t seed = 0; seed < 500; ++seed) {
+    const PatchMesh patches = random_patches(random.integer(1, 6), random.integer(1, 6), 40, 30,
+                                             seed, {random.uniform(0, 0.45), random.uniform(0, 2)});
+    const CoverageReport report =
+        count_coverage(single_layer(patches, 40, 30), at_scale(random.uniform(0.3, 5)));
+    EXPECT_EQ(report.uncovered, 0) << seed;
+    EXPECT_EQ(report.doubly_covered, 0) << seed;
+  }
+}
+
+TEST(Render, LeavesNoHoleWhereMeshesFold) {
+  Random random(78);
+  for (std::uint32_t seed = 0; seed < 500; ++seed) {
+    PatchMesh patches = random_patches(4, 3, 40, 30, seed % 10);
+    for (auto& p : patches.mesh.vertices) {
+      const bool inside = p.x() > 0 && p.x() < 40 && p.y() > 0 && p.y() < 30;
+      if (inside) p = {random.uniform(1, 39), random.uniform(1, 29)};
+      if (inside && seed % 7 == 0) p = {20, 15};  // all in one point
+    }
+    const VectorImage image = single_layer(std::move(patches), 40, 30);
+    EXPECT_EQ(count_coverage(image, at_scale(random.uniform(0.5, 3))).uncovered, 0) << seed;
+  }
+}
+
 TEST(Render, CountsHolesAndOverlaps) {
   // Two separate quads of one mesh: [0,4] x [0,4] and [3,6] x [0,4] in a picture of 8 x 4.
   std::vector<Eigen::Vector2d> vertices = {{0, 0}, {4, 0}, {4, 4}, {0, 4},

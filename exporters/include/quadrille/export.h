@@ -15,7 +15,7 @@ struct RasterFileOptions {
   double scale = 1;  ///< output pixels per source pixel
   int width = 0;     ///< when not 0, decides the size instead of scale
   int bits = 8;      ///< 8, or 16 for PNG and TIFF
-  int quality = 90;  ///< JPEG and WebP, 1 to 100
+  int quality = 90;  ///< JPEG, WebP and opaque deep-zoom tiles, 1 to 100
   /// Behind transparency where the format has none (JPEG).
   std::array<float, 3> background = {1, 1, 1};
 };
@@ -75,8 +75,8 @@ void write_vtu(const VectorImage& image, const std::filesystem::path& path,
 std::vector<std::string> export_endings();
 
 /// Chooses the writer by the ending of the path: .quad, .png, .jpg, .jpeg, .webp, .tif, .tiff,
-/// .svg, .pdf, .glb, .vtu. Throws Error{unsupported_format} for any other, naming those it can
-/// write.
+/// .dzi, .svg, .pdf, .glb, .vtu. Throws Error{unsupported_format} for any other, naming those it
+/// can write.
 void export_image(const VectorImage& image, const std::filesystem::path& path,
                   const ExportOptions& options = {}, const RunContext& context = {});
 

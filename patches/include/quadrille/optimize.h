@@ -12,7 +12,7 @@ namespace quadrille {
 struct OptimizeOptions {
   int rounds = 8;  ///< Gauss-Newton steps that are tried; 0 leaves the patches alone
   /// Weight of well-shaped quads beside the error, not negative: about 0.02 for the smallest error,
-  /// 0.08 for quads that are pleasant to edit.
+  /// 0.12 for quads that are pleasant to edit.
   double shape_weight = 0.02;
   /// Smallest scaled Jacobian that moves may leave behind, in (0, 1); worse quads do not get worse.
   double min_scaled_jacobian = 0.2;

@@ -1,0 +1,238 @@
+#include "quadrille/renderer.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <new>
+
+#include "patch_scan.h"
+#include "quadrille/error.h"
+#include "support/random_patches.h"
+
+namespace {
+
+std::size_t allocations = 0;
+
+}  // namespace
+
+// Counts this program's allocations.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace quadrille {
+namespace {
+
+using testing::Random;
+using testing::random_patches;
+using testing::set_linear_colors;
+using testing::set_random_colors;
+using testing::single_layer;
+
+VectorImage random_image(std::uint32_t seed, bool opaque = true) {
+  PatchMesh patches = random_patches(6, 5, 37, 29, seed, {0.25, 0.8});
+  set_random_colors(patches, seed + 100, opaque);
+  return single_layer(std::move(patches), 37, 29);
+}
+
+RunContext with_threads(int threads) {
+  RunContext context;
+  context.threads = threads;
+  return context;
+}
+
+struct Bytes {
+  std::vector<std::uint8_t> data;
+  std::ptrdiff_t row;
+};
+
+Bytes draw(Renderer& renderer, const VectorImage& image, RenderOptions options,
+           const PixelLayout& layout = {}, int threads = 1) {
+  const auto [width, height] = output_size(image, options);
+  const PixelRegion region = options.region.value_or(PixelRegion{0, 0, width, height});
+  const int bytes[] = {1, 2, 4};
+  Bytes out;
+  out.row =
+      std::ptrdiff_t{1} * region.width * layout.channels * bytes[static_cast<int>(layout.type)];
+  out.data.resize(static_cast<std::size_t>(out.row) * region.height);
+  renderer.draw(options, layout, {out.data.data(), out.row}, with_threads(threads));
+  return out;
+}
+
+/// Parameters of a point by Newton's method in doubles, from the nearest of a grid of starts.
+Eigen::Vector2d parameters_of(const BicubicHermite<Eigen::Vector2d>& p,
+                              const Eigen::Vector2d& point) {
+  Eigen::Vector2d best(0.5, 0.5);
+  double nearest = INFINITY;
+  for (int i = 0; i < 81; ++i) {
+    const Eigen::Vector2d at((i % 9) / 8.0, (i / 9) / 8.0);
+    const double distance = (p.at(at.x(), at.y()) - point).norm();
+    if (distance < nearest) nearest = distance, best = at;
+  }
+  for (int step = 0; step < 30; ++step) {
+    Eigen::Matrix2d jacobian;
+    jacobian << p.derivative_u(best.x(), best.y()), p.derivative_v(best.x(), best.y());
+    best += jacobian.inverse() * (point - p.at(best.x(), best.y()));
+  }
+  return best;
+}
+
+Eigen::Array4d color_at(const BicubicHermite<Color>& color, double u, double v) {
+  BicubicHermite<Eigen::Array4d> exact;
+  for (int k = 0; k < 4; ++k) {
+    exact.value[k] = color.value[k].cast<double>();
+    exact.du[k] = color.du[k].cast<double>();
+    exact.dv[k] = color.dv[k].cast<double>();
+    exact.duv[k] = color.duv[k].cast<double>();
+  }
+  return exact.at(u, v).max(0).min(1);
+}
+
+TEST(Renderer, IsWithinRoundingOfExactEvaluation) {
+  const VectorImage image = random_image(3);
+  const PatchMesh& patches = image.layers[0].patches;
+  Renderer renderer(image);
+  for (const double scale : {1.0, 4.0, 16.0, 64.0}) {
+    RenderOptions options;
+    options.scale = scale;
+    const auto [width, height] = output_size(image, options);
+    PixelRegion region{0, 0, width, height};
+    if (scale > 4) region = {width / 3, height / 3, 150, 120};
+    options.region = region;
+    const Bytes drawn = draw(renderer, image, options);
+    SampleGrid grid;
+    grid.scale = {scale, scale};
+    const PatchScan scan(patches, grid);
+    const SampleWindow window = {region.x, region.y, region.x + region.width,
+                                 region.y + region.height};
+    double worst = 0;
+    int count = 0;
+    for (int q = 0; q < patches.patch_count(); ++q) {
+      const FergusonPatch patch = ferguson_patch(patches, q);
+      scan.scan(q, intersection(scan.bounds(q), window), [&](int y, int begin, int end) {
+        for (int x = begin; x < end; ++x) {
+          const auto uv = parameters_of(patch.position, {(x + 0.5) / scale, (y + 0.5) / scale});
+          const Eigen::Array4d expected = color_at(patch.color, uv.x(), uv.y());
+          const std::uint8_t* const pixel =
+              drawn.data.data() + (y - region.y) * drawn.row + 4 * (x - region.x);
+          for (int k = 0; k < 3; ++k) {
+            worst = std::max(worst, std::abs(pixel[k] - 255 * expected[k]));
+          }
+          ++count;
+        }
+      });
+    }
+    EXPECT_EQ(count, region.width * region.height);
+    EXPECT_LE(worst, 0.51) << "scale " << scale;
+  }
+}
+
+TEST(Renderer, RegionsThreadsAndFramesGiveTheSameBytes) {
+  VectorImage image = random_image(5, false);
+  image.layers.push_back(random_image(6, false).layers[0]);
+  image.layers[1].transform.rotate(0.4).scale(0.6);
+  Renderer renderer(image);
+  Random random(2);
+  for (const double scale : {0.3, 1.0, 9.0, 30.0}) {
+    RenderOptions options;
+    options.scale = scale;
+    const auto [width, height] = output_size(image, options);
+    Renderer fresh(image);
+    const Bytes whole = draw(fresh, image, options);
+    for (int trial = 0; trial < 12; ++trial) {
+      PixelRegion r;
+      r.x = random.integer(0, width - 1);
+      r.y = random.integer(0, height - 1);
+      r.width = random.integer(1, width - r.x);
+      r.height = random.integer(1, height - r.y);
+      options.region = r;
+      const Bytes part = draw(renderer, image, options, {}, 1 + trial % 2);
+      bool equal = true;
+      for (int y = 0; y < r.height; ++y) {
+        equal &=
+            std::equal(part.data.begin() + y * part.row, part.data.begin() + (y + 1) * part.row,
+                       whole.data.begin() + (y + r.y) * whole.row + 4 * r.x);
+      }
+      EXPECT_TRUE(equal) << "scale " << scale << " region " << r.x << "," << r.y << "," << r.width
+                         << "," << r.height;
+    }
+  }
+}
+
+TEST(Renderer, InstructionSetsGiveTheSameBytes) {
+  const VectorImage image = random_image(8, false);
+  for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32}) {
+    for (const double scale : {0.5, 1.0, 12.0}) {
+      RenderOptions options;
+      options.scale = scale;
+      options.background = {0.2f, 0.4f, 0.6f, 0.5f};
+      Renderer best(image);
+      const Bytes expected = draw(best, image, options, {type, 4});
+      const std::int64_t available = hwy::SupportedTargets();
+      for (std::int64_t rest = available; rest != 0; rest &= rest - 1) {
+        hwy::SetSupportedTargetsForTest(rest & -rest);
+        hwy::GetChosenTarget().DeInit();
+        Renderer renderer(image);
+        EXPECT_TRUE(draw(renderer, image, options, {type, 4}).data == expected.data)
+            << hwy::TargetName(rest & -rest) << " scale " << scale;
+      }
+      hwy::SetSupportedTargetsForTest(0);
+      hwy::GetChosenTarget().DeInit();
+    }
+  }
+}
+
+TEST(Renderer, AllocatesNothingInTheSteadyState) {
+  const VectorImage image = random_image(4, false);
+  Renderer renderer(image);
+  RenderOptions options;
+  std::vector<std::uint8_t> pixels(4 * 37 * 29 * 16);
+  const RunContext one = with_threads(1);
+  const auto draw_region = [&](double scale, const PixelRegion& region) {
+    options.scale = scale;
+    options.region = region;
+    renderer.draw(options, {}, {pixels.data(), 4 * region.width}, one);
+  };
+  const auto draw_all = [&] {
+    draw_region(4, {0, 0, 148, 116});
+    draw_region(4, {20, 30, 50, 40});
+    draw_region(4, {70, 60, 60, 40});
+  };
+  draw_all();
+  const std::size_t before = allocations;
+  draw_all();
+  EXPECT_EQ(allocations, before);
+}
+
+TEST(Renderer, WritesEveryLayout) {
+  PatchMesh patches = straight_patches(testing::lattice(2, 2, 8, 6));
+  set_linear_colors(patches, Color(0.1f, 0.2f, 0.3f, 0.5f));
+  const VectorImage image = single_layer(std::move(patches), 8, 6);
+  Renderer renderer(image);
+  EXPECT_FALSE(renderer.opaque());
+  RenderOptions options;
+  EXPECT_THROW(draw(renderer, image, options, {SampleType::uint8, 3}), Error);
+  EXPECT_THROW(draw(renderer, image, options, {SampleType::uint8, 2}), Error);
+  using Pixel = std::vector<std::uint8_t>;
+  const auto first = [&](const PixelLayout& layout) {
+    const Bytes drawn = draw(renderer, image, options, layout);
+    return Pixel(drawn.data.begin(), drawn.data.begin() + layout.channels);
+  };
+  EXPECT_EQ(first({SampleType::uint8, 4, false}), (Pixel{51, 102, 153, 128}));
+  EXPECT_EQ(first({SampleType::uint8, 4, true}), (Pixel{26, 51, 77, 128}));
+  options.background = {1, 1, 1, 1};
+  EXPECT_TRUE(renderer.opaque(options));
+  EXPECT_EQ(first({SampleType::uint8, 3}), (Pixel{153, 179, 204}));
+  const Bytes wide = draw(renderer, image, options, {SampleType::uint16, 3});
+  const auto* const words = reinterpret_cast<const std::uint16_t*>(wide.data.data());
+  EXPECT_EQ(words[0], std::lround(0.6 * 65535));
+}
+
+}  // namespace
+}  // namespace quadrille
