@@ -14,6 +14,7 @@ namespace {
 using testing::at_scale;
 using testing::picture_of;
 using testing::random_image;
+using testing::Random;
 using testing::random_patches;
 using testing::rectangle;
 using testing::set_linear_colors;
