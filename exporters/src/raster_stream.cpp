@@ -71,8 +71,9 @@ int save_dzi(VipsImage* image, const char* path, const RasterFileOptions& option
   const std::string base = std::filesystem::path(path).replace_extension().string();
   const bool alpha = vips_image_hasalpha(image);
   const std::string suffix = alpha ? ".png" : ".jpg[Q=" + std::to_string(options.quality) + "]";
+  // Not stripped it would hold a file with the date.
   return vips_dzsave(image, base.c_str(), "suffix", suffix.c_str(), "tile_size", 254, "overlap", 1,
-                     nullptr);
+                     "strip", true, nullptr);
 }
 
 /// Moves a finished pyramid's folder of tiles to its place, or removes an unfinished one's.

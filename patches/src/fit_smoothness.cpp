@@ -10,6 +10,8 @@ namespace {
 
 // Of the weight of the pixels in a patch, about; the fit is not solved more exactly.
 constexpr double kNegligible = 1e-6;
+// Edges below it, in pixels, have no direction.
+constexpr double kShortest = 1e-6;
 
 /// An edge on one side of which, or on both, the colours of the same two wedges lie.
 struct Span {
@@ -20,6 +22,7 @@ struct Span {
 
 void add_span(const PatchMesh& patches, const Span& span, double strength, WedgeRows& rows) {
   const double length = span.along.norm();
+  if (!(length > kShortest)) return;
   const Eigen::Vector2d across(-span.along.y() / length, span.along.x() / length);
   const auto add = [&](double value, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
     std::array<WedgeRows::Entry, 2> entries = {{

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "parallel_ranges.h"
+#include "quadrille/error.h"
 
 namespace quadrille {
 namespace {
@@ -39,6 +40,10 @@ NormalEquations::Vector solve(NormalEquations& system, const FitOptions& options
     return part;
   });
   const double initial = rho.sum();
+  if (!std::isfinite(initial)) {
+    throw Error(ErrorCode::numerical_failure,
+                "the equations of the colours are not finite; pass a mesh whose quads have areas");
+  }
   report = {0, initial > 0 ? 1.0 : 0.0};
   while (report.residual > options.tolerance && report.iterations < options.max_iterations) {
     const Eigen::Array4d alpha = ratio(rho, system.multiply(direction, product));

@@ -152,7 +152,9 @@ void ColorSystem::invert_blocks() {
       Eigen::Matrix4d block = rows_.block(w);
       for (const int h : wedge_corners_[w]) block += scratch_[h >> 2][h & 3].cast<double>();
       // Unit diagonal first: the four unknowns differ by powers of the edge length.
-      const Eigen::Vector4d scale = block.diagonal().cwiseSqrt().cwiseInverse();
+      // Patches without an area leave their unknowns as they are.
+      const Eigen::Vector4d scale =
+          block.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
       Eigen::Matrix4d scaled = scale.asDiagonal() * block * scale.asDiagonal();
       // Keeps the preconditioner positive definite where rounding of the element products does not.
       scaled.diagonal().array() += kBlockFloor;

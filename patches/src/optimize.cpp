@@ -228,7 +228,7 @@ OptimizeReport optimize_vertices(PatchMesh& patches, const Raster& picture,
   if (options.rounds == 0 || fit.method == FitMethod::bessel) return report;
   tbb::task_arena arena(arena_size(context));
   arena.execute([&] { report = take_rounds(patches, picture, options, fit, context); });
-  if (report.accepted > 0) fit_colors(patches, picture, fit, context);
+  if (report.accepted > 0) report.fit = fit_colors(patches, picture, fit, context);
   return report;
 }
 

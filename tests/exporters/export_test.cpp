@@ -41,6 +41,7 @@ TEST(Export, EveryEndingMakesAFile) {
       export_image(picture(opaque), path);
       EXPECT_GT(fs::file_size(path), 0u) << ending;
       fs::remove(path);
+      fs::remove_all(output("every_files"));  // the tiles of .dzi
     }
   }
 }

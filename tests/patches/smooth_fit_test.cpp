@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "fit_smoothness.h"
+#include "quadrille/error.h"
 #include "quadrille/fit.h"
 #include "quadrille/patch_geometry.h"
 #include "support/random_patches.h"
@@ -91,6 +92,21 @@ TEST(SmoothFit, JumpsAcrossTearsBendNothing) {
     if (is_middle) mesh.edge_flags[e] = kTearEdge;
   }
   EXPECT_EQ(bending_of_two_shades(mesh), 0);
+}
+
+TEST(SmoothFit, EdgesWithoutALengthAreRefusedRatherThanLeftUnfitted) {
+  const QuadMesh mesh = lattice(6, 5, 12, 10);
+  std::vector<Vector2d> vertices = mesh.vertices;
+  for (Vector2d& v : vertices) {
+    if (v == Vector2d(4, 4)) v = {6, 4};
+  }
+  PatchMesh patches = straight_patches(QuadMesh(vertices, mesh.quads()));
+  try {
+    fit_colors(patches, Raster(12, 10, 3));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::numerical_failure);
+  }
 }
 
 /// More unknowns than pixels: only the smoothness says what happens between them.

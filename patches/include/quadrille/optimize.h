@@ -32,6 +32,7 @@ struct OptimizeReport {
   /// Mean squared error of the unclamped colours at the pixel centres over pixels and channels,
   /// sRGB in [0, 1], alpha premultiplied; 0 when no round was taken.
   double mse_before = 0, mse_after = 0;
+  FitReport fit;  ///< of the colours at last; when no step was accepted they stay
 };
 
 /// Moves the vertices so that the patches, with the colours that fit best, reproduce the picture

@@ -92,8 +92,8 @@ struct VectorizeReport {
   MeshRegion region = MeshRegion::whole;  ///< of the mesh that was made
   int components = 0, holes = 0;          ///< of the mesh
   double outline_length = 0;              ///< pixels, around components and holes
-  FitReport fit;  ///< on the mesh before its vertices were optimised, rough then
-  OptimizeReport optimize;
+  FitReport fit;
+  OptimizeReport optimize;  ///< where patches have many pixels, on a reduced picture
   std::vector<StageReport> stages;
 };
 
