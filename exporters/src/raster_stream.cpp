@@ -71,9 +71,8 @@ int save_dzi(VipsImage* image, const char* path, const RasterFileOptions& option
   const std::string base = std::filesystem::path(path).replace_extension().string();
   const bool alpha = vips_image_hasalpha(image);
   const std::string suffix = alpha ? ".png" : ".jpg[Q=" + std::to_string(options.quality) + "]";
-  // Not stripped it would hold a file with the date.
   return vips_dzsave(image, base.c_str(), "suffix", suffix.c_str(), "tile_size", 254, "overlap", 1,
-                     "strip", true, nullptr);
+                     nullptr);
 }
 
 /// Moves a finished pyramid's folder of tiles to its place, or removes an unfinished one's.
@@ -97,7 +96,9 @@ class PyramidTiles {
 
   void keep() const {
     std::error_code error;
-    std::filesystem::remove_all(to_, error);
+    // Holds the date, which no two runs share.
+    std::filesystem::remove(from_ / "vips-properties.xml", error);
+    if (!error) std::filesystem::remove_all(to_, error);
     if (!error) std::filesystem::rename(from_, to_, error);
     if (error) {
       throw Error(ErrorCode::io_failure, "cannot write '" + to_.string() + "': " + error.message() +

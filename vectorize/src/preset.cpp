@@ -25,7 +25,7 @@ double rounded_to_two_digits(double value) {
 }  // namespace
 
 const std::vector<Preset>& presets() {
-  // photo gives 481 x 321 pixels 3,000 quads; graphic gives a drawing of 640 x 360 8,000 and icon
+  // photo gives 481 x 321 pixels 3,000 quads; graphic gives a drawing of 640 x 360 7,900 and icon
   // one of 256 x 256 3,000, which is what such pictures take to look like themselves.
   static const std::vector<Preset> all = {
       {"draft", "a quick look", 200, 100, 10'000},
