@@ -155,6 +155,20 @@ DocumentStorage::LayerStorage storage_of(const fbs::Layer& layer, const std::str
   report_newer_document(name);
 }
 
+/// FlatBuffers lets many offsets lead to one place; then a small document would claim any size.
+void check_unshared(const fbs::Document& stored, std::size_t content, const std::string& name) {
+  // Bytes that each takes at least beside its arrays and strings: offsets, lengths, a transform.
+  constexpr std::uint64_t kLeastLayer = 96, kLeastMetadata = 20;
+  std::uint64_t claimed = 0;
+  for (const fbs::Layer* layer : *stored.layers()) {
+    claimed += kLeastLayer + layer->name()->size() + storage_of(*layer, name).bytes;
+  }
+  for (const fbs::MetadataEntry* entry : *stored.metadata()) {
+    claimed += kLeastMetadata + entry->key()->size() + entry->value()->size();
+  }
+  if (claimed > content) report_damaged_document(name, "its parts are larger than the whole");
+}
+
 }  // namespace
 
 std::vector<std::byte> to_document(const VectorImage& image, const DocumentOptions& options) {
@@ -186,6 +200,7 @@ VectorImage from_document(std::span<const std::byte> bytes, const std::string& n
   if (!is_size(image.width) || !is_size(image.height)) {
     report_damaged_document(name, "its size is not positive");
   }
+  check_unshared(stored, document.content.size(), name);
   check_quads(stored, bytes.size(), name);
   for (const fbs::Layer* layer : *stored.layers()) {
     image.layers.push_back(restore_layer(*layer, image, name));

@@ -104,6 +104,10 @@ ColorSteps::ColorSteps(const QuadMesh& mesh, const std::vector<int>& wedge_of_co
     for (int k = 0; k < 4; ++k) scale_[wedge_of_corner[4 * q + k]] += area;
     total += 4 * area;
   }
+  if (!(total > 0)) {
+    scale_.assign(wedge_count, 1);
+    return;
+  }
   const double mean = total / static_cast<double>(wedge_count);
   for (double& scale : scale_) scale = std::clamp(mean / scale, kLeastScale, kMostScale);
 }
