@@ -100,6 +100,7 @@ class ColorSteps {
   /// `step`: of the value of white, for a wedge of mean area; 1 is white.
   ColorSteps(const QuadMesh& mesh, const std::vector<int>& wedge_of_corner, std::size_t wedge_count,
              double step);
+  void set_step(double step);
   double operator()(int wedge, int channel, WedgeKind kind) const {
     return scale_[wedge] * of_[channel][kind];
   }
