@@ -69,7 +69,12 @@ struct DocumentStorage {
   std::vector<LayerStorage> layers;
 };
 
-/// Throws as load_document() does, but does not look into the layers.
-DocumentStorage document_storage(const std::filesystem::path& path);
+struct StoredImage {
+  VectorImage image;
+  DocumentStorage storage;
+};
+
+/// load_document() and what it has read. Throws as load_document() does.
+StoredImage load_document_and_storage(const std::filesystem::path& path);
 
 }  // namespace quadrille
