@@ -155,8 +155,7 @@ void print_text(const std::filesystem::path& path, const DocumentStorage& storag
 }
 
 int run_info(const InfoRequest& request) {
-  const DocumentStorage storage = document_storage(request.input);
-  const VectorImage image = load_document(request.input);
+  const auto [image, storage] = load_document_and_storage(request.input);
   std::vector<Contents> layers;
   Contents all;
   for (const Layer& layer : image.layers) {

@@ -155,6 +155,47 @@ DocumentStorage::LayerStorage storage_of(const fbs::Layer& layer, const std::str
   report_newer_document(name);
 }
 
+/// FlatBuffers lets many offsets lead to one place; then a small document would claim any size.
+void check_unshared(const fbs::Document& stored, std::size_t content, const std::string& name) {
+  // Bytes that each takes at least beside its arrays and strings: offsets, lengths, a transform.
+  constexpr std::uint64_t kLeastLayer = 96, kLeastMetadata = 20;
+  std::uint64_t claimed = 0;
+  for (const fbs::Layer* layer : *stored.layers()) {
+    claimed += kLeastLayer + layer->name()->size() + storage_of(*layer, name).bytes;
+  }
+  for (const fbs::MetadataEntry* entry : *stored.metadata()) {
+    claimed += kLeastMetadata + entry->key()->size() + entry->value()->size();
+  }
+  if (claimed > content) report_damaged_document(name, "its parts are larger than the whole");
+}
+
+StoredImage restore(const UnpackedDocument& document, std::size_t file_size,
+                    const std::string& name) {
+  const fbs::Document& stored = verified(document.content, name);
+  StoredImage result;
+  auto& [image, storage] = result;
+  storage.version = static_cast<int>(document.version);
+  storage.file_bytes = file_size;
+  image.width = stored.width();
+  image.height = stored.height();
+  const auto is_size = [](double side) { return std::isfinite(side) && side > 0; };
+  if (!is_size(image.width) || !is_size(image.height)) {
+    report_damaged_document(name, "its size is not positive");
+  }
+  check_unshared(stored, document.content.size(), name);
+  check_quads(stored, file_size, name);
+  for (const fbs::Layer* layer : *stored.layers()) {
+    image.layers.push_back(restore_layer(*layer, image, name));
+    storage.layers.push_back(storage_of(*layer, name));
+  }
+  for (const fbs::MetadataEntry* entry : *stored.metadata()) {
+    if (!image.metadata.emplace(entry->key()->str(), entry->value()->str()).second) {
+      report_damaged_document(name, "a metadata key is repeated");
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<std::byte> to_document(const VectorImage& image, const DocumentOptions& options) {
@@ -177,25 +218,7 @@ std::vector<std::byte> to_document(const VectorImage& image, const DocumentOptio
 }
 
 VectorImage from_document(std::span<const std::byte> bytes, const std::string& name) {
-  const UnpackedDocument document = unpack_document(bytes, name);
-  const fbs::Document& stored = verified(document.content, name);
-  VectorImage image;
-  image.width = stored.width();
-  image.height = stored.height();
-  const auto is_size = [](double side) { return std::isfinite(side) && side > 0; };
-  if (!is_size(image.width) || !is_size(image.height)) {
-    report_damaged_document(name, "its size is not positive");
-  }
-  check_quads(stored, bytes.size(), name);
-  for (const fbs::Layer* layer : *stored.layers()) {
-    image.layers.push_back(restore_layer(*layer, image, name));
-  }
-  for (const fbs::MetadataEntry* entry : *stored.metadata()) {
-    if (!image.metadata.emplace(entry->key()->str(), entry->value()->str()).second) {
-      report_damaged_document(name, "a metadata key is repeated");
-    }
-  }
-  return image;
+  return restore(unpack_document(bytes, name), bytes.size(), name).image;
 }
 
 void save_document(const VectorImage& image, const std::filesystem::path& path,
@@ -211,16 +234,9 @@ VectorImage load_document(const std::filesystem::path& path) {
   return from_document(read_file(path), path.string());
 }
 
-DocumentStorage document_storage(const std::filesystem::path& path) {
+StoredImage load_document_and_storage(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_file(path);
-  const UnpackedDocument document = unpack_document(bytes, path.string());
-  DocumentStorage storage;
-  storage.version = static_cast<int>(document.version);
-  storage.file_bytes = bytes.size();
-  for (const fbs::Layer* layer : *verified(document.content, path.string()).layers()) {
-    storage.layers.push_back(storage_of(*layer, path.string()));
-  }
-  return storage;
+  return restore(unpack_document(bytes, path.string()), bytes.size(), path.string());
 }
 
 }  // namespace quadrille

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace quadrille {
 namespace {
@@ -65,12 +66,13 @@ class PositionCoder {
   }
 
   int nearby_error(int v) const {
-    int sum = 0, count = 0;
+    std::int64_t sum = 0;
+    int count = 0;
     for_each_known_neighbour(v, [&](int u, int) {
       sum += errors_[u];
       ++count;
     });
-    return count > 0 ? sum / count : 1 << 16;
+    return count > 0 ? static_cast<int>(sum / count) : 1 << 16;
   }
 
   /// The mean of parallelograms and of straight continuations.

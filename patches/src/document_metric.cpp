@@ -30,6 +30,17 @@ struct PatchProducts {
 };
 constexpr PatchProducts kProducts;
 
+/// The Cholesky factor of m. What has none, as numbers are out of proportion, becomes the nearest
+/// form that has: its diagonal or, failing that, the identity.
+Matrix4d factorize(Matrix4d& m) {
+  if (!m.allFinite()) m.setIdentity();
+  const Eigen::LLT<Matrix4d> factor(m);
+  const Matrix4d root = factor.matrixU();
+  if (factor.info() == Eigen::Success && root.allFinite()) return root;
+  m = Matrix4d(m.diagonal().asDiagonal());
+  return m.cwiseSqrt();
+}
+
 }  // namespace
 
 PictureMetric::PictureMetric(const PatchMesh& patches, const std::vector<ColorFrame>& frames)
@@ -41,7 +52,7 @@ PictureMetric::PictureMetric(const PatchMesh& patches, const std::vector<ColorFr
   for (Matrix4d& m : block_) {
     // Vertices on one point have no metric; anything positive will do there.
     m.diagonal().array() += 1e-12 * m.trace() + 1e-30;
-    root_.push_back(Eigen::LLT<Matrix4d>(m).matrixU());
+    root_.push_back(factorize(m));
   }
 }
 

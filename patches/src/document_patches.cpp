@@ -1,12 +1,12 @@
 #include "document_patches.h"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "byte_planes.h"
+#include "document_checks.h"
 #include "document_container.h"
 #include "quadrille/error.h"
 
@@ -30,16 +30,6 @@ std::vector<Word> words_from(const Bytes& bytes, std::size_t components, const s
     report_damaged_document(name, "an array has a wrong size");
   }
   return join_planes<Word>(std::span(bytes.data(), bytes.size()), components);
-}
-
-template <class Number, class Element>
-void check_finite(const std::vector<Element>& elements, const std::string& name) {
-  static_assert(sizeof(Element) % sizeof(Number) == 0);
-  const auto* numbers = reinterpret_cast<const Number*>(elements.data());
-  const std::size_t count = elements.size() * (sizeof(Element) / sizeof(Number));
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!std::isfinite(numbers[i])) report_damaged_document(name, "a number is not finite");
-  }
 }
 
 void check_size(std::size_t is, std::size_t should_be, const char* what, const std::string& name) {

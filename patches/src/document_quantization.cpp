@@ -91,12 +91,7 @@ Color color_of(const Eigen::Array4d& c) {
 ColorSteps::ColorSteps(const QuadMesh& mesh, const std::vector<int>& wedge_of_corner,
                        std::size_t wedge_count, double step)
     : scale_(wedge_count, 0) {
-  // Inverse norms of the Hermite basis: the blending functions of values have the mean square
-  // 26/35 per axis, those of derivatives 2/105.
-  constexpr std::array<double, 4> kKind = {1, 6.25, 6.25, 39};
-  for (int c = 0; c < kChannels; ++c) {
-    for (int kind = 0; kind < 4; ++kind) of_[c][kind] = step * channel_step(c) * kKind[kind];
-  }
+  set_step(step);
   constexpr double kLeastScale = 0.25, kMostScale = 4;
   double total = 0;
   for (int q = 0; q < mesh.quad_count(); ++q) {
@@ -104,8 +99,21 @@ ColorSteps::ColorSteps(const QuadMesh& mesh, const std::vector<int>& wedge_of_co
     for (int k = 0; k < 4; ++k) scale_[wedge_of_corner[4 * q + k]] += area;
     total += 4 * area;
   }
+  if (!(total > 0)) {
+    scale_.assign(wedge_count, 1);
+    return;
+  }
   const double mean = total / static_cast<double>(wedge_count);
   for (double& scale : scale_) scale = std::clamp(mean / scale, kLeastScale, kMostScale);
+}
+
+void ColorSteps::set_step(double step) {
+  // Inverse norms of the Hermite basis: the blending functions of values have the mean square
+  // 26/35 per axis, those of derivatives 2/105.
+  constexpr std::array<double, 4> kKind = {1, 6.25, 6.25, 39};
+  for (int c = 0; c < kChannels; ++c) {
+    for (int kind = 0; kind < 4; ++kind) of_[c][kind] = step * channel_step(c) * kKind[kind];
+  }
 }
 
 bool can_quantize(const PatchMesh& patches, const PositionGrid& grid, double color_step) {

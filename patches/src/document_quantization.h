@@ -17,8 +17,9 @@ class PositionGrid {
         side_{width, height},
         last_{std::ceil(width / step_), std::ceil(height / step_)} {}
 
-  /// The sides are numbers that an int holds with room to spare.
-  bool is_usable() const { return last_[0] < 1 << 24 && last_[1] < 1 << 24; }
+  /// The sides are numbers that an int holds with room to spare, and no distance between positions
+  /// is so small that its square vanishes.
+  bool is_usable() const { return is_usable(0) && is_usable(1); }
   double step() const { return step_; }
   /// Number of the far side of the picture along an axis.
   int last(int axis) const { return static_cast<int>(last_[axis]); }
@@ -31,6 +32,11 @@ class PositionGrid {
  private:
   double step_;
   std::array<double, 2> side_, last_;
+
+  bool is_usable(int axis) const {
+    constexpr double kMost = 1 << 24;
+    return last_[axis] < kMost && side_[axis] > step_ / kMost;
+  }
 };
 
 /// How an edge's tangents follow from the vertices: those of set_bessel_tangents(), drawn toward
@@ -87,12 +93,14 @@ LocalColors local_colors(const Wedge& w, const ColorFrame& frame, const Eigen::V
 
 /// Sizes of the steps of all colour numbers. The picture's mean absolute error is smallest for its
 /// bits when all wedges have the same share in it: a wedge's step is the mean area of the wedges
-/// divided by its own. Depends on positions only, by operations that every machine rounds alike.
+/// divided by its own; without any area all are alike. Depends on positions only, by operations
+/// that every machine rounds alike.
 class ColorSteps {
  public:
   /// `step`: of the value of white, for a wedge of mean area; 1 is white.
   ColorSteps(const QuadMesh& mesh, const std::vector<int>& wedge_of_corner, std::size_t wedge_count,
              double step);
+  void set_step(double step);
   double operator()(int wedge, int channel, WedgeKind kind) const {
     return scale_[wedge] * of_[channel][kind];
   }

@@ -1,9 +1,11 @@
 #include "document_quantized.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
+#include "document_checks.h"
 #include "document_colors.h"
 #include "document_connectivity.h"
 #include "document_container.h"
@@ -92,10 +94,15 @@ flatbuffers::Offset<fbs::QuantizedPatches> store_quantized(flatbuffers::FlatBuff
 PatchMesh restore_quantized(const fbs::QuantizedPatches& stored, double width, double height,
                             bool opaque, const std::string& name) {
   constexpr int kFinest = 24;
+  // With these no colour of 25 bits leaves the range of a float, whatever the positions.
+  constexpr double kLeastColor = 0x1p-24, kMostColor = 0x1p8;
   const int exponent = stored.position_exponent();
   const double step = stored.color_step();
-  if (std::abs(exponent) > kFinest || !(step > 0) || !std::isfinite(step)) {
+  if (std::abs(exponent) > kFinest || !(step >= kLeastColor && step <= kMostColor)) {
     report_damaged_document(name, "a step of quantisation is out of range");
+  }
+  if (stored.quad_count() > std::numeric_limits<int>::max() / 4) {
+    report_damaged_document(name, "it has too many quads");
   }
   const PositionGrid grid(exponent, width, height);
   if (!grid.is_usable()) report_damaged_document(name, "its size does not fit its positions");
@@ -109,6 +116,7 @@ PatchMesh restore_quantized(const fbs::QuantizedPatches& stored, double width, d
   decode_geometry(geometry, quantized, grid);
   geometry.finish();
   set_tangents(grid.step(), quantized);
+  check_finite<double>(quantized.tangents, name);
 
   PatchMesh wedges = straight_patches(quantized.mesh);
   quantized.wedge_of_corner = std::move(wedges.wedge_of_corner);
@@ -117,7 +125,9 @@ PatchMesh restore_quantized(const fbs::QuantizedPatches& stored, double width, d
   RangeDecoder colors(bytes_of(*stored.colors()), name);
   decode_colors(colors, quantized, grid, step);
   colors.finish();
-  return dequantize(quantized, grid, step);
+  PatchMesh patches = dequantize(quantized, grid, step);
+  check_finite<float>(patches.wedges, name);
+  return patches;
 }
 
 }  // namespace quadrille

@@ -63,9 +63,16 @@ std::vector<int> first_corners(const PatchMesh& patches) {
   return corner;
 }
 
-/// All but colours, rounded.
-QuantizedPatches on_grid(const PatchMesh& patches, const PositionGrid& grid) {
-  QuantizedPatches out;
+/// Patches with vertices and tangents on a grid, and no colours.
+struct Placed {
+  PositionGrid grid;
+  QuantizedPatches patches;
+  int folded = 0;  ///< patches that were certified free of folds and are no more
+};
+
+Placed on_grid(const PatchMesh& patches, const PositionGrid& grid) {
+  Placed placed{grid, {}};
+  QuantizedPatches& out = placed.patches;
   out.mesh = patches.mesh;
   out.opaque = patches.opaque;
   out.points.resize(patches.mesh.vertices.size());
@@ -77,8 +84,8 @@ QuantizedPatches on_grid(const PatchMesh& patches, const PositionGrid& grid) {
   }
   out.wedge_of_corner = patches.wedge_of_corner;
   out.wedges.resize(patches.wedges.size());
-  quantize_tangents(patches, grid.step(), out);
-  return out;
+  placed.folded = quantize_tangents(patches, grid.step(), out);
+  return placed;
 }
 
 std::vector<LocalColors> colors_in(const PatchMesh& patches, const PatchMesh& moved,
@@ -97,22 +104,43 @@ std::vector<LocalColors> colors_in(const PatchMesh& patches, const PatchMesh& mo
   return colors;
 }
 
-/// The integers that the colours are, if they are nearly so.
-std::optional<std::vector<WedgeCode>> exact_codes(const std::vector<LocalColors>& colors,
-                                                  const ColorSteps& steps) {
-  constexpr double kTolerance = 1 / 32.0;
-  std::vector<WedgeCode> codes(colors.size());
+/// Calls visit(wedge, channel, kind, number in steps) until it returns false; then this does, too.
+template <class Visit>
+bool for_each_number(const std::vector<LocalColors>& colors, const ColorSteps& steps,
+                     const Visit& visit) {
   for (int w = 0; w < static_cast<int>(colors.size()); ++w) {
     for (int kind = 0; kind < 4; ++kind) {
       for (int c = 0; c < kChannels; ++c) {
         const double number = colors[w][kind][c] / steps(w, c, static_cast<WedgeKind>(kind));
-        const double nearest = std::floor(number + 0.5);
-        if (!(std::abs(number - nearest) <= kTolerance)) return std::nullopt;
-        codes[w][c][kind] = static_cast<int>(nearest);
+        if (!visit(w, c, kind, number)) return false;
       }
     }
   }
+  return true;
+}
+
+double nearest(double number) { return std::floor(number + 0.5); }
+
+/// The integers that the colours are, if they are so but for `tolerance`.
+std::optional<std::vector<WedgeCode>> exact_codes(const std::vector<LocalColors>& colors,
+                                                  const ColorSteps& steps, double tolerance) {
+  const bool exact = for_each_number(colors, steps, [&](int, int, int, double number) {
+    return std::abs(number - nearest(number)) <= tolerance;
+  });
+  if (!exact) return std::nullopt;
+  std::vector<WedgeCode> codes(colors.size());
+  for_each_number(colors, steps, [&](int w, int c, int kind, double number) {
+    codes[w][c][kind] = static_cast<int>(nearest(number));
+    return true;
+  });
   return codes;
+}
+
+/// Share of a step by which colours may miss multiples of it: what one number misses changes the
+/// picture by less than kMostChange steps, so the picture keeps to the wished error.
+double tolerance_of(const StepChoice& choice, double step) {
+  constexpr double kTolerance = 1 / 32.0, kMostChange = 8;
+  return choice.color ? kTolerance : std::min(kTolerance, choice.error / (kMostChange * step));
 }
 
 /// Patches that a document held: the coarsest of the steps that they are multiples of.
@@ -127,11 +155,13 @@ std::optional<SteppedPatches> as_stored(const PatchMesh& patches, double width, 
     if (!std::all_of(vertices.begin(), vertices.end(), is_point)) continue;
     const std::vector<ColorFrame> frames = color_frames(patches.mesh, grid.step());
     const std::vector<LocalColors> colors = colors_in(patches, patches, frames);
+    ColorSteps steps(patches.mesh, patches.wedge_of_corner, patches.wedges.size(), 1);
     for (const float step : colors_of(choice)) {
-      const ColorSteps steps(patches.mesh, patches.wedge_of_corner, patches.wedges.size(), step);
-      auto codes = exact_codes(colors, steps);
+      steps.set_step(step);
+      auto codes = exact_codes(colors, steps, tolerance_of(choice, step));
       if (!codes) continue;
-      SteppedPatches stored{on_grid(patches, grid), {exponent, step}};
+      SteppedPatches stored{on_grid(patches, grid).patches, {exponent, step}};
+      if (!are_same_tangents(stored.patches.tangents, patches.edge_tangents, grid.step())) break;
       stored.patches.wedges = *std::move(codes);
       return stored;
     }
@@ -142,14 +172,16 @@ std::optional<SteppedPatches> as_stored(const PatchMesh& patches, double width, 
 /// Patches with their vertices rounded.
 class Rounded {
  public:
-  Rounded(const PatchMesh& before, const PositionGrid& grid)
-      : patches_(on_grid(before, grid)),
+  Rounded(const PatchMesh& before, Placed placed)
+      : folded_(placed.folded),
+        patches_(std::move(placed.patches)),
         moved_(geometry_of(patches_)),
-        frames_(color_frames(moved_.mesh, grid.step())),
+        frames_(color_frames(moved_.mesh, placed.grid.step())),
         metric_(moved_, frames_),
         picture_(before, moved_, metric_),
         colors_(colors_in(before, moved_, frames_)) {}
 
+  int folded() const { return folded_; }
   double error() const { return picture_.error(colors_); }
   void fit_colors() { colors_ = picture_.fit(std::move(colors_)); }
 
@@ -171,6 +203,7 @@ class Rounded {
   QuantizedPatches take() { return std::move(patches_); }
 
  private:
+  int folded_;
   QuantizedPatches patches_;
   PatchMesh moved_;
   std::vector<ColorFrame> frames_;
@@ -184,21 +217,31 @@ int finer_exponents(double error, double wished) {
   return error > 0 ? static_cast<int>(std::ceil(std::log2(error / wished))) : -kUsualExponent;
 }
 
+/// The coarsest exponent from `exponent` on that folds the fewest patches.
+Placed place_without_folds(const PatchMesh& patches, double width, double height, int& exponent) {
+  Placed best = on_grid(patches, PositionGrid(exponent, width, height));
+  for (int finer = exponent + 1; finer <= kFinestExponent && best.folded > 0; ++finer) {
+    Placed placed = on_grid(patches, PositionGrid(finer, width, height));
+    if (placed.folded >= best.folded) continue;
+    best = std::move(placed);
+    exponent = finer;
+  }
+  return best;
+}
+
 std::unique_ptr<Rounded> round_positions(const PatchMesh& patches, double width, double height,
                                          const StepChoice& choice, int& exponent) {
-  const auto rounded = [&] {
-    return std::make_unique<Rounded>(patches, PositionGrid(exponent, width, height));
-  };
   exponent = choice.position_exponent.value_or(kUsualExponent);
-  auto result = rounded();
+  auto result =
+      std::make_unique<Rounded>(patches, on_grid(patches, PositionGrid(exponent, width, height)));
   if (choice.position_exponent) return result;
   const int best =
       std::clamp(exponent + finer_exponents(result->error(), kPositionShare * choice.error),
                  kCoarsestExponent, kFinestExponent);
-  if (best == exponent) return result;
+  if (best == exponent && result->folded() == 0) return result;
   exponent = best;
   result.reset();
-  return rounded();
+  return std::make_unique<Rounded>(patches, place_without_folds(patches, width, height, exponent));
 }
 
 double squared(double x) { return x * x; }

@@ -21,17 +21,18 @@ EdgeTangents drawn_in(const EdgeTangents& bessel, const Eigen::Vector2d& chord, 
   return t;
 }
 
-double distance(const EdgeTangents& a, const EdgeTangents& b) {
-  return std::max((a[0] - b[0]).lpNorm<Eigen::Infinity>(), (a[1] - b[1]).lpNorm<Eigen::Infinity>());
+bool are_near(const EdgeTangents& a, const EdgeTangents& b, double position_step) {
+  // Far above rounding and far below a step.
+  const double tolerance = 1e-6 * position_step;
+  return (a[0] - b[0]).lpNorm<Eigen::Infinity>() <= tolerance &&
+         (a[1] - b[1]).lpNorm<Eigen::Infinity>() <= tolerance;
 }
 
 EdgeShape shape_of(const EdgeTangents& tangents, const EdgeTangents& bessel,
                    const Eigen::Vector2d& chord, double position_step) {
-  // Far above rounding and far below a step.
-  const double tolerance = 1e-6 * position_step;
   EdgeShape shape;
   for (shape.level = 0; shape.level <= EdgeShape::kStraight; ++shape.level) {
-    if (distance(tangents, drawn_in(bessel, chord, shape.level)) <= tolerance) return shape;
+    if (are_near(tangents, drawn_in(bessel, chord, shape.level), position_step)) return shape;
   }
   bool any = false;
   for (int i = 0; i < 4; ++i) {
@@ -95,7 +96,13 @@ void set_tangents(double position_step, QuantizedPatches& patches) {
       tangents_of(patches.mesh, patches.shapes, bessel_tangents(patches.mesh), position_step);
 }
 
-void quantize_tangents(const PatchMesh& patches, double position_step, QuantizedPatches& moved) {
+bool are_same_tangents(const std::vector<EdgeTangents>& a, const std::vector<EdgeTangents>& b,
+                       double position_step) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](const auto& t, const auto& u) { return are_near(t, u, position_step); });
+}
+
+int quantize_tangents(const PatchMesh& patches, double position_step, QuantizedPatches& moved) {
   const QuadMesh& mesh = moved.mesh;
   std::vector<EdgeShape>& shapes = moved.shapes;
   shapes =
@@ -109,10 +116,13 @@ void quantize_tangents(const PatchMesh& patches, double position_step, Quantized
     must_hold[q] = certify_fold_free(patch_geometry(patches, q));
   }
   std::vector<int> raised(mesh.edge_count(), 0);
+  int folded;
   for (;;) {
+    folded = 0;
     std::vector<int> raise;
     for (int q = 0; q < mesh.quad_count(); ++q) {
       if (!must_hold[q] || certify_fold_free(patch_geometry(curved, q))) continue;
+      ++folded;
       for (int k = 0; k < 4; ++k) raise.push_back(mesh.edge(4 * q + k));
     }
     // A quad that folds even with straight edges stays as it is.
@@ -129,6 +139,7 @@ void quantize_tangents(const PatchMesh& patches, double position_step, Quantized
     curved.edge_tangents = settle(mesh, bessel, position_step, shapes);
   }
   moved.tangents = std::move(curved.edge_tangents);
+  return folded;
 }
 
 }  // namespace quadrille

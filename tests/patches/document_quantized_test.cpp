@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "document_container.h"
+#include "document_metric.h"
+#include "finite_image.h"
 #include "irregular_mesh.h"
 #include "quadrille/document.h"
 #include "quadrille/error.h"
@@ -56,6 +58,14 @@ double largest_difference(const VectorImage& a, const VectorImage& b) {
   return largest;
 }
 
+/// Mean absolute difference of the pictures at scale 1, of 255.
+double mean_difference(const VectorImage& a, const VectorImage& b) {
+  const Raster p = render(a), q = render(b);
+  double sum = 0;
+  for (std::size_t i = 0; i < p.data.size(); ++i) sum += std::abs(p.data[i] - q.data[i]);
+  return 255 * sum / static_cast<double>(p.data.size());
+}
+
 TEST(QuantizedDocument, FineStepsKeepThePictureOfAnyMesh) {
   for (unsigned seed = 0; seed < 12; ++seed) {
     const VectorImage image = irregular_image(seed, seed % 2, seed % 3);
@@ -102,10 +112,7 @@ TEST(QuantizedDocument, TheErrorIsTheWishedOne) {
       set_random_colors(patches, seed, true);
       const VectorImage image = single_layer(std::move(patches), 101.5, 80);
       const VectorImage loaded = reloaded(image, {.error = wished});
-      const Raster a = render(image), b = render(loaded);
-      double sum = 0;
-      for (std::size_t i = 0; i < a.data.size(); ++i) sum += std::abs(a.data[i] - b.data[i]);
-      const double error = 255 * sum / static_cast<double>(a.data.size());
+      const double error = mean_difference(image, loaded);
       EXPECT_LT(error, 1.1 * wished) << seed;
       EXPECT_GT(error, 0.6 * wished) << seed;
     }
@@ -146,6 +153,70 @@ TEST(QuantizedDocument, TheMeshStaysValidAndFreeOfFolds) {
     EXPECT_TRUE(validate(patches.mesh, loaded.width, loaded.height).empty()) << seed;
     for (int q = 0; q < patches.patch_count(); ++q) {
       EXPECT_TRUE(certify_fold_free(patch_geometry(patches, q))) << seed << " " << q;
+    }
+  }
+}
+
+TEST(QuantizedDocument, QuadsBelowAPixelDoNotFold) {
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    // Of few colours: their error alone would allow half pixels.
+    PatchMesh patches = straight_patches(irregular_mesh(30, 20, 30, 20, seed));
+    for (Wedge& w : patches.wedges) w.value << 0.5f, 0.25f, 0.75f, 1.f;
+    const auto bytes = to_document(single_layer(std::move(patches), 30, 20));
+    const VectorImage loaded = from_document(bytes);
+    const PatchMesh& after = loaded.layers[0].patches;
+    for (int q = 0; q < after.patch_count(); ++q) {
+      ASSERT_TRUE(certify_fold_free(patch_geometry(after, q))) << seed << " " << q;
+    }
+    EXPECT_EQ(to_document(loaded), bytes) << seed;
+  }
+}
+
+TEST(QuantizedDocument, TangentsChangedAfterLoadingAreNotRoundedBlindly) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    VectorImage image = reloaded(irregular_image(seed, false, true), {.error = 1});
+    PatchMesh& patches = image.layers[0].patches;
+    for (int e = 0; e < patches.mesh.edge_count(); ++e) {
+      if (patches.mesh.is_border(e)) continue;
+      const Eigen::Vector2d bend(0.4 * std::sin(3.0 * e), 0.4 * std::cos(5.0 * e));
+      for (Eigen::Vector2d& t : patches.edge_tangents[e]) t += bend;
+    }
+    EXPECT_LT(mean_difference(image, reloaded(image, {.error = 0.05})), 0.055) << seed;
+  }
+}
+
+TEST(QuantizedDocument, PatchesThatVanishOnTheGridStayFinite) {
+  // Smaller than the finest step, among others or alone.
+  for (const double size : {1e-3, 1e-6, 1e-12}) {
+    for (const bool alone : {false, true}) {
+      PatchMesh patches = straight_patches(
+          alone ? QuadMesh({{3, 3}, {3 + size, 3}, {3 + size, 3 + size}, {3, 3 + size}},
+                           {{0, 1, 2, 3}})
+                : QuadMesh({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {9 + size, 0}, {9 + size, 9}},
+                           {{0, 1, 2, 3}, {1, 4, 5, 2}}));
+      set_random_colors(patches, 5, true);
+      const VectorImage image = single_layer(std::move(patches), 10, 10);
+      for (const DocumentOptions& options :
+           {DocumentOptions{}, DocumentOptions{.position_bits = -8}}) {
+        EXPECT_TRUE(testing::is_finite(reloaded(image, options))) << size << " " << alone;
+      }
+    }
+  }
+}
+
+TEST(PictureMetric, IsPositiveForNumbersOutOfProportion) {
+  for (const double tangent : {0.0, 1e10, 1e80, 1e200}) {
+    PatchMesh patches = straight_patches(testing::lattice(2, 2, 1, 1));
+    for (Eigen::Vector2d& p : patches.mesh.vertices) p.setZero();
+    for (auto& tangents : patches.edge_tangents) tangents.fill({tangent, tangent});
+    const PictureMetric metric(patches, color_frames(patches.mesh, 0.5));
+    for (int w = 0; w < metric.wedge_count(); ++w) {
+      LocalColors ones;
+      ones.fill(Eigen::Array4d::Ones());
+      for (const Eigen::Array4d& kind : metric.solve_block(w, ones)) {
+        EXPECT_TRUE(kind.isFinite().all()) << tangent;
+      }
+      EXPECT_GT(metric.root(w).diagonal().minCoeff(), 0) << tangent;
     }
   }
 }

@@ -244,6 +244,11 @@ TEST(Document, SavesAndLoadsFiles) {
   const VectorImage image = random_image(8);
   save_document(image, folder / "a.quad", kLossless);
   expect_same(image, load_document(folder / "a.quad"));
+  const StoredImage stored = load_document_and_storage(folder / "a.quad");
+  expect_same(image, stored.image);
+  EXPECT_EQ(stored.storage.file_bytes, std::filesystem::file_size(folder / "a.quad"));
+  ASSERT_EQ(stored.storage.layers.size(), image.layers.size());
+  EXPECT_EQ(stored.storage.layers[0].encoding, DocumentEncoding::lossless);
   save_document(random_image(9), folder / "a.quad", kLossless);
   EXPECT_EQ(load_document(folder / "a.quad").width, random_image(9).width);
   EXPECT_THROW(save_document(image, folder / "missing" / "a.quad", kLossless), Error);

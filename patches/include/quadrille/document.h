@@ -29,7 +29,8 @@ enum class DocumentEncoding {
 struct DocumentOptions {
   DocumentEncoding encoding = DocumentEncoding::quantized;
   /// Quantised only. Positions are rounded to multiples of 2^-position_bits pixels; vertices on the
-  /// sides of the picture stay there exactly. -8 to 16; chosen for each layer by `error` if absent.
+  /// sides of the picture stay there exactly. -8 to 16; chosen for each layer by `error` if absent,
+  /// and finer where patches would fold.
   std::optional<int> position_bits = {};
   /// Quantised only. Step of the colours in units of 1/255; derivatives are rounded so that they
   /// weigh as much in the rendered picture, and small patches more coarsely than large ones. 2^-8
@@ -68,7 +69,12 @@ struct DocumentStorage {
   std::vector<LayerStorage> layers;
 };
 
-/// Throws as load_document() does, but does not look into the layers.
-DocumentStorage document_storage(const std::filesystem::path& path);
+struct StoredImage {
+  VectorImage image;
+  DocumentStorage storage;
+};
+
+/// load_document() and what it has read. Throws as load_document() does.
+StoredImage load_document_and_storage(const std::filesystem::path& path);
 
 }  // namespace quadrille
