@@ -71,6 +71,11 @@ Json sizes_of(const std::vector<fs::path>& outputs) {
   return files;
 }
 
+std::string name_of(TearOptions::Mode mode) {
+  using Mode = TearOptions::Mode;
+  return mode == Mode::off ? "off" : mode == Mode::strong ? "strong" : "auto";
+}
+
 double cpu_seconds(const rusage& usage) {
   const auto seconds = [](const timeval& t) { return t.tv_sec + t.tv_usec * 1e-6; };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
@@ -100,6 +105,7 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
        {{"quads", report.chosen.vectorize.quads},
         {"preset", report.options.preset},
         {"fit", report.options.fit},
+        {"tears", name_of(report.chosen.vectorize.tears.mode)},
         {"optimize", report.options.optimize},
         {"editable", report.options.editable},
         {"lattice", report.options.lattice},
@@ -122,6 +128,7 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
        {{"positive", v.positive_singularities}, {"negative", v.negative_singularities}}},
       {"misalignment_degrees", v.misalignment_degrees},
       {"cross_field", phases_of(v.cross_field_phases)},
+      {"tears", {{"chains", v.chains}, {"torn", v.tears}, {"length", v.tear_length}}},
       {"folded", v.folded},
       {"fallback", v.fallback},
       {"uncovered_pixels", report.measurement.coverage.uncovered},

@@ -44,6 +44,10 @@ void check_options(const FitOptions& options) {
     reject("the fit's tolerance is " + std::to_string(options.tolerance) +
            "; use a number between 0 and 1 such as 1e-4");
   }
+  if (options.max_iterations < 1) {
+    reject("the fit was asked for at most " + std::to_string(options.max_iterations) +
+           " iterations; use 1 or more");
+  }
 }
 
 void check_fit(const PatchMesh& patches, const Raster& picture, const FitOptions& options) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <utility>
 
 #include "parallel_ranges.h"
 #include "picture_sampling.h"
@@ -88,6 +89,62 @@ bool add_samples(const SampleBlock& samples, int local, const Raster& picture, c
 
 double dot(const WedgeUnknowns& a, const WedgeUnknowns& b) {
   return static_cast<double>(a.cwiseProduct(b).sum());
+}
+
+/// What the conjugate gradients carry from one iteration to the next.
+struct GradientState {
+  JointVector solution, residual, direction;
+  JointVector product;  ///< of the matrix and the direction, or the preconditioned residual
+
+  double advance(float alpha, const ColorSystem& system,
+                 const std::vector<Eigen::Matrix2f>& inverse);
+  void turn(float keep);
+};
+
+/// Takes a step of length `alpha` along the direction and leaves the preconditioned residual in
+/// the product; returns the product of both residuals. `inverse` preconditions the moves.
+double GradientState::advance(float alpha, const ColorSystem& system,
+                              const std::vector<Eigen::Matrix2f>& inverse) {
+  const double of_colors = sum_over_ranges(system.wedge_count(), 0.0, [&](int begin, int end) {
+    double sum = 0;
+    for (int w = begin; w < end; ++w) {
+      if (alpha != 0) {
+        solution.colors[w] += alpha * direction.colors[w];
+        residual.colors[w] -= alpha * product.colors[w];
+      }
+      product.colors[w] = residual.colors[w] * system.inverse_block(w);
+      sum += dot(residual.colors[w], product.colors[w]);
+    }
+    return sum;
+  });
+  const int vertices = static_cast<int>(inverse.size());
+  const double of_moves = sum_over_ranges(vertices, 0.0, [&](int begin, int end) {
+    double sum = 0;
+    for (int v = begin; v < end; ++v) {
+      if (alpha != 0) {
+        solution.moves[v] += alpha * direction.moves[v];
+        residual.moves[v] -= alpha * product.moves[v];
+      }
+      product.moves[v] = inverse[v] * residual.moves[v];
+      sum += static_cast<double>(residual.moves[v].dot(product.moves[v]));
+    }
+    return sum;
+  });
+  return of_colors + of_moves;
+}
+
+/// The next direction: the preconditioned residual and `keep` times the last one.
+void GradientState::turn(float keep) {
+  for_each_range(static_cast<int>(direction.colors.size()), [&](int begin, int end) {
+    for (int w = begin; w < end; ++w) {
+      direction.colors[w] = product.colors[w] + keep * direction.colors[w];
+    }
+  });
+  for_each_range(static_cast<int>(direction.moves.size()), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      direction.moves[v] = product.moves[v] + keep * direction.moves[v];
+    }
+  });
 }
 
 }  // namespace
@@ -214,62 +271,22 @@ int JointSystem::solve(double given_damping, JointVector& step) {
   for_each_range(vertices, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) inverse[v] = inverse_stiffness(v, damping);
   });
-  JointVector residual = {colors_.right_hand_side, force_};
-  JointVector direction = {ColorSystem::Vector(wedges), std::vector<Eigen::Vector2f>(vertices)};
-  JointVector product = direction;
-  step = {ColorSystem::Vector(wedges, WedgeUnknowns::Zero()),
-          std::vector<Eigen::Vector2f>(vertices, Eigen::Vector2f::Zero())};
-  // Takes a step of length `alpha` along the direction and leaves the preconditioned residual in
-  // `product`; returns its product with the residual.
-  const auto advance = [&](float alpha) {
-    double rho = sum_over_ranges(wedges, 0.0, [&](int begin, int end) {
-      double sum = 0;
-      for (int w = begin; w < end; ++w) {
-        if (alpha != 0) {
-          step.colors[w] += alpha * direction.colors[w];
-          residual.colors[w] -= alpha * product.colors[w];
-        }
-        product.colors[w] = residual.colors[w] * colors_.inverse_block(w);
-        sum += dot(residual.colors[w], product.colors[w]);
-      }
-      return sum;
-    });
-    rho += sum_over_ranges(vertices, 0.0, [&](int begin, int end) {
-      double sum = 0;
-      for (int v = begin; v < end; ++v) {
-        if (alpha != 0) {
-          step.moves[v] += alpha * direction.moves[v];
-          residual.moves[v] -= alpha * product.moves[v];
-        }
-        product.moves[v] = inverse[v] * residual.moves[v];
-        sum += static_cast<double>(residual.moves[v].dot(product.moves[v]));
-      }
-      return sum;
-    });
-    return rho;
-  };
-  double rho = advance(0);
+  const JointVector zero = {ColorSystem::Vector(wedges, WedgeUnknowns::Zero()),
+                            std::vector<Eigen::Vector2f>(vertices, Eigen::Vector2f::Zero())};
+  GradientState state = {zero, {colors_.right_hand_side, force_}, zero, zero};
+  double rho = state.advance(0, colors_, inverse);
   const double enough = rho * kTolerance * kTolerance;
-  direction = product;
+  state.direction = state.product;
   int iterations = 0;
   while (rho > enough && iterations < kMaxIterations) {
-    const double curvature = multiply(direction, damping, product);
+    const double curvature = multiply(state.direction, damping, state.product);
     if (!(curvature > 0)) break;
-    const double next = advance(static_cast<float>(rho / curvature));
-    const auto keep = static_cast<float>(next / rho);
+    const double next = state.advance(static_cast<float>(rho / curvature), colors_, inverse);
+    state.turn(static_cast<float>(next / rho));
     rho = next;
     ++iterations;
-    for_each_range(wedges, [&](int begin, int end) {
-      for (int w = begin; w < end; ++w) {
-        direction.colors[w] = product.colors[w] + keep * direction.colors[w];
-      }
-    });
-    for_each_range(vertices, [&](int begin, int end) {
-      for (int v = begin; v < end; ++v) {
-        direction.moves[v] = product.moves[v] + keep * direction.moves[v];
-      }
-    });
   }
+  step = std::move(state.solution);
   return iterations;
 }
 

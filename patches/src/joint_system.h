@@ -22,7 +22,7 @@ class JointSystem {
   /// `colors` is solved, its right-hand side holds what is left. `mean` is half the sum of the
   /// picture and what the patches show, premultiplied, with the picture's channels; its central
   /// differences are the gradients. The shape energy counts `shape_weight` times. Keeps references
-  /// to all but the context.
+  /// to the colours, the patches and the guides.
   JointSystem(ColorSystem& colors, const PatchMesh& patches,
               const std::vector<SampleBlock>& samples, const Raster& picture, const Raster& mean,
               const VertexGuides& guides, double shape_weight);

@@ -29,21 +29,14 @@ constexpr double kShapeScale = 0.16;
 /// The colours of a round need not be better than its step.
 constexpr double kRoundTolerance = 3e-2;
 
-void check(const OptimizeOptions& options) {
-  const auto reject = [](const std::string& message) {
-    throw Error(ErrorCode::invalid_argument, message);
-  };
-  if (options.rounds < 0) {
-    reject("the optimisation was asked for " + std::to_string(options.rounds) +
-           " rounds; use 0 or more");
-  }
-  if (!(options.shape_weight >= 0) || !std::isfinite(options.shape_weight)) {
-    reject("the optimisation's shape weight is " + std::to_string(options.shape_weight) +
-           "; use a number such as 0.02");
-  }
-  if (!(options.min_scaled_jacobian > 0 && options.min_scaled_jacobian < 1)) {
-    reject("the optimisation's smallest scaled Jacobian is " +
-           std::to_string(options.min_scaled_jacobian) + "; use a number between 0 and 1");
+void check_shapes(const QuadMesh& mesh) {
+  for (int q = 0; q < mesh.quad_count(); ++q) {
+    if (!std::isfinite(shape_energy(mesh, q))) {
+      throw Error(ErrorCode::invalid_argument,
+                  "quad " + std::to_string(q) +
+                      " is not strictly convex, so its vertices cannot be optimised; pass a mesh "
+                      "that validate() finds nothing wrong with");
+    }
   }
 }
 
@@ -182,8 +175,9 @@ OptimizeReport take_rounds(PatchMesh& patches, const Raster& picture,
   auto state = std::make_unique<State>(patches, true, picture, round_fit, inner);
   std::size_t sample_count = 0;
   for (const SampleBlock& block : state->samples) sample_count += block.pixel.size();
-  const double values = static_cast<double>(sample_count) * picture.channels;
   OptimizeReport report;
+  if (sample_count == 0) return report;
+  const double values = static_cast<double>(sample_count) * picture.channels;
   report.mse_before = report.mse_after = state->squared_error / values;
   const double weight = options.shape_weight * kShapeScale * std::sqrt(report.mse_before) *
                         static_cast<double>(sample_count) / patches.patch_count();
@@ -219,13 +213,32 @@ OptimizeReport take_rounds(PatchMesh& patches, const Raster& picture,
 
 }  // namespace
 
+void check_options(const OptimizeOptions& options) {
+  const auto reject = [](const std::string& message) {
+    throw Error(ErrorCode::invalid_argument, message);
+  };
+  if (options.rounds < 0) {
+    reject("the optimisation was asked for " + std::to_string(options.rounds) +
+           " rounds; use 0 or more");
+  }
+  if (!(options.shape_weight >= 0) || !std::isfinite(options.shape_weight)) {
+    reject("the optimisation's shape weight is " + std::to_string(options.shape_weight) +
+           "; use a number such as 0.02");
+  }
+  if (!(options.min_scaled_jacobian > 0 && options.min_scaled_jacobian < 1)) {
+    reject("the optimisation's smallest scaled Jacobian is " +
+           std::to_string(options.min_scaled_jacobian) + "; use a number between 0 and 1");
+  }
+}
+
 OptimizeReport optimize_vertices(PatchMesh& patches, const Raster& picture,
                                  const OptimizeOptions& options, const FitOptions& fit,
                                  const RunContext& context) {
-  check(options);
+  check_options(options);
   check_fit(patches, picture, fit);
   OptimizeReport report;
   if (options.rounds == 0 || fit.method == FitMethod::bessel) return report;
+  check_shapes(patches.mesh);
   tbb::task_arena arena(arena_size(context));
   arena.execute([&] { report = take_rounds(patches, picture, options, fit, context); });
   if (report.accepted > 0) report.fit = fit_colors(patches, picture, fit, context);

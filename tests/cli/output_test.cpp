@@ -195,6 +195,9 @@ TEST_F(Output, TheReportTellsEverything) {
   EXPECT_EQ(report["options"]["quads"], 200);
   EXPECT_EQ(report["options"]["fit"], "bessel");
   EXPECT_NEAR(report["quads"].get<int>(), 200, 20);
+  EXPECT_EQ(report["options"]["tears"], "auto");
+  EXPECT_GE(report["tears"]["chains"].get<int>(), report["tears"]["torn"].get<int>());
+  EXPECT_EQ(report["tears"]["torn"] > 0, report["tears"]["length"] > 0);
   EXPECT_EQ(report["folded"], 0);
   EXPECT_EQ(report["fallback"], false);
   EXPECT_EQ(report["uncovered_pixels"], 0);
@@ -247,6 +250,28 @@ TEST_F(Output, ThePresetIsChosenByContentOrNamed) {
   EXPECT_EQ(counted["options"]["quads"], 150);
 }
 
+TEST_F(Output, TheReportTellsOfTears) {
+  const fs::path folder = fresh_folder("tears");
+  const auto report_with = [&](const std::string& mode) {
+    expect_silent_success(
+        quadrille({sample("pictures/ring_256_alpha.png"), "--quads", "400", "--tears", mode, "-o",
+                   (folder / "a.quad").string(), "--report", (folder / "r.json").string()}));
+    return nlohmann::json::parse(bytes_of(folder / "r.json"));
+  };
+  const auto strong = report_with("strong");
+  EXPECT_EQ(strong["options"]["tears"], "strong");
+  EXPECT_GT(strong["tears"]["torn"], 0);
+  EXPECT_EQ(strong["tears"]["torn"], strong["tears"]["chains"]);
+  const auto info =
+      nlohmann::json::parse(quadrille({"info", (folder / "a.quad").string(), "--json"}).out);
+  EXPECT_GT(info["tears"]["length"].get<double>(), 0);
+  EXPECT_NEAR(strong["tears"]["length"].get<double>(), info["tears"]["length"].get<double>(),
+              0.01 * info["tears"]["length"].get<double>());
+  const auto off = report_with("off");
+  EXPECT_EQ(off["options"]["tears"], "off");
+  EXPECT_EQ(off["tears"], (nlohmann::json{{"chains", 0}, {"torn", 0}, {"length", 0.0}}));
+}
+
 TEST_F(Output, TheErrorKeepsWithinItsBound) {
   const fs::path folder = fresh_folder("max_error");
   const auto run_with = [&](const std::string& error, const std::string& quads) {
@@ -257,6 +282,7 @@ TEST_F(Output, TheErrorKeepsWithinItsBound) {
   expect_silent_success(run_with("12", "5000"));
   EXPECT_EQ(report()["error_bound"]["met"], true);
   EXPECT_EQ(report()["error_bound"]["wished"], 12);
+  EXPECT_EQ(report()["options"]["quads"], report()["error_bound"]["rounds"][0]["wished"]);
   EXPECT_LE(report()["mae"].get<double>(), 12);
   EXPECT_FALSE(report()["error_bound"]["rounds"].empty());
   EXPECT_LE(report()["quads"].get<int>(), 5000 * 1.05);

@@ -352,6 +352,9 @@ TEST(Fit, RejectsWhatItCannotFit) {
   options = {};
   options.tolerance = std::nan("");
   EXPECT_EQ(code_of(patches, picture, options), ErrorCode::invalid_argument);
+  options = {};
+  options.max_iterations = 0;
+  EXPECT_EQ(code_of(patches, picture, options), ErrorCode::invalid_argument);
   RunContext context;
   context.on_progress = [](const std::string&, double) { return false; };
   EXPECT_EQ(code_of(patches, picture, {}, context), ErrorCode::cancelled);

@@ -325,6 +325,41 @@ TEST(Optimize, DoesNothingInNoRoundsOrForSampledColours) {
   EXPECT_TRUE(same(before, after));
 }
 
+TEST(Optimize, TakesNoRoundWithoutAPixelCentre) {
+  const Raster picture = disc(8, 8, 1);
+  QuadMesh mesh = lattice(2, 2, 0.4, 0.4);  // the first pixel has its centre at (0.5, 0.5)
+  const PatchMesh before = fit_patches(mesh, picture);
+  PatchMesh after = before;
+  const OptimizeReport report = optimize_vertices(after, picture);
+  EXPECT_TRUE(report.rounds.empty());
+  EXPECT_EQ(report.mse_before, 0);
+  EXPECT_EQ(report.mse_after, 0);
+  EXPECT_TRUE(same(before, after));
+}
+
+TEST(Optimize, RefusesQuadsThatAreNotStrictlyConvex) {
+  const Raster picture = disc(40, 40, 1);
+  PatchMesh patches = fit_patches(lattice(4, 4, 40, 40), picture);
+  const Vector2d good = patches.mesh.vertices[6];  // (10, 10), a corner of quad 0 and of 5
+  for (const Vector2d& bad : {Vector2d(15, 15), Vector2d(17, 17)}) {  // flat, and reflex
+    patches.mesh.vertices[6] = bad;
+    for (const double weight : {0.0, 0.02}) {
+      OptimizeOptions options;
+      options.shape_weight = weight;
+      try {
+        optimize_vertices(patches, picture, options);
+        ADD_FAILURE() << bad.transpose() << ", " << weight;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+      }
+    }
+  }
+  patches.mesh.vertices[6] = good;
+  OptimizeOptions free;
+  free.shape_weight = 0;
+  EXPECT_GT(optimize_vertices(patches, picture, free).accepted, 0);
+}
+
 TEST(Optimize, RefusesWhatItCannotDo) {
   const Raster picture(8, 8, 3);
   const auto code_of = [&](PatchMesh patches, const Raster& shown, const OptimizeOptions& options,

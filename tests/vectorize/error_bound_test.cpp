@@ -80,11 +80,12 @@ Raster picture() {
 }
 
 TEST(ErrorBound, IsMetByTheRenderedPicture) {
-  const BoundedVectorization bounded = vectorize_to_error(picture(), {.mae = 2}, {.quads = 60});
+  const BoundedVectorization bounded =
+      vectorize_to_error(picture(), {.mae = 2, .max_rounds = 20}, {.quads = 60});
   ASSERT_TRUE(bounded.met);
   EXPECT_LE(bounded.mae, 2);
   EXPECT_EQ(compare(picture(), render(bounded.result.image)).mae, bounded.mae);
-  EXPECT_LE(bounded.rounds.size(), 8);
+  EXPECT_LE(bounded.rounds.size(), 10);
   for (const ErrorBoundRound& round : bounded.rounds) {
     EXPECT_TRUE(round.mae > 2 || round.quads >= bounded.result.report.quads);
   }
@@ -96,6 +97,13 @@ TEST(ErrorBound, OutOfReachGivesTheBestWithinTheCeiling) {
   EXPECT_FALSE(bounded.met);
   EXPECT_EQ(bounded.rounds.back().wished_quads, 200);
   for (const ErrorBoundRound& round : bounded.rounds) EXPECT_GE(round.mae, bounded.mae);
+}
+
+TEST(ErrorBound, EndsAfterTheRoundsAllowed) {
+  const BoundedVectorization bounded =
+      vectorize_to_error(picture(), {.mae = 0.01, .max_rounds = 2}, {.quads = 60, .lattice = true});
+  EXPECT_FALSE(bounded.met);
+  EXPECT_EQ(bounded.rounds.size(), 2);
 }
 
 TEST(ErrorBound, AConstantPictureTakesOneQuad) {

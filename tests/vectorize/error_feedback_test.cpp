@@ -126,6 +126,29 @@ TEST(RefineByError, RefusesAFitOfAnotherSize) {
   EXPECT_THROW(refine_by_error(result, picture, Raster(48, 47, 3), {.quads = 100}), Error);
 }
 
+TEST(RefineByError, RefusesOptionsAndPicturesAsQuadrangulateDoes) {
+  const Raster picture = disc_picture(48, 48, {24, 24}, 12);
+  const Quadrangulation meshed = quadrangulate(picture, {.quads = 100});
+  const auto code_of = [&](const Raster& shown, const Raster& fitted, VectorizeOptions options) {
+    Quadrangulation result = meshed;
+    try {
+      refine_by_error(result, shown, fitted, options);
+    } catch (const Error& error) {
+      return error.code();
+    }
+    return ErrorCode::numerical_failure;
+  };
+  EXPECT_EQ(code_of(picture, picture, {.quads = 0}), ErrorCode::invalid_argument);
+  EXPECT_EQ(code_of(picture, picture, {.quads = kMaxQuads + 1}), ErrorCode::limit_exceeded);
+  EXPECT_EQ(code_of(picture, picture, {.chain_share = 2}), ErrorCode::invalid_argument);
+  EXPECT_EQ(code_of(picture, picture, {.optimize = {.rounds = -1}}), ErrorCode::invalid_argument);
+  Raster broken = picture;
+  broken.data[0] = std::nanf("");
+  EXPECT_EQ(code_of(picture, broken, {}), ErrorCode::invalid_argument);
+  EXPECT_EQ(code_of(broken, picture, {}), ErrorCode::invalid_argument);
+  EXPECT_EQ(code_of(Raster(), picture, {}), ErrorCode::invalid_argument);
+}
+
 TEST(RefineByError, AnyPictureEndsInAGoodMeshAlongItsChains) {
   constexpr int kPicturesPerFamily = 4;
   constexpr double kSmallestJacobian = 0.15;

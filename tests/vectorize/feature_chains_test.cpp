@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -145,7 +146,11 @@ TEST(FeatureChains, OptionsChooseWhichEdgesAreChains) {
   EXPECT_THROW(feature_chains(picture, {.contrast = 0}), Error);
   EXPECT_THROW(feature_chains(picture, {.weak_contrast = -1}), Error);
   EXPECT_THROW(feature_chains(picture, {.sharpness = 1.5}), Error);
-  EXPECT_THROW(feature_chains(picture, {.min_length = std::nan("")}), Error);
+  EXPECT_TRUE(
+      feature_chains(disc_picture(32, 32, {16, 16}, 3), {.min_length = 1e9}).chains.empty());
+  for (const double length : {-1.0, 1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_THROW(feature_chains(picture, {.min_length = length}), Error) << length;
+  }
 }
 
 TEST(FeatureChains, SameForAnyNumberOfThreads) {

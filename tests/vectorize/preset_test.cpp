@@ -118,6 +118,32 @@ TEST(Preset, ApplyLeavesOtherOptionsAlone) {
   EXPECT_EQ(options.fit.method, FitMethod::bessel);
 }
 
+TEST(Preset, ApplyTearsDrawingsStrongly) {
+  const VectorizeOptions usual;
+  for (const char* name : {"graphic", "icon"}) {
+    SCOPED_TRACE(name);
+    VectorizeOptions options;
+    apply(preset_named(name), two_halves(600, 400), options);
+    EXPECT_EQ(options.quads, preset_quads(preset_named(name), 600, 400));
+    EXPECT_EQ(options.tears.mode, TearOptions::Mode::strong);
+    EXPECT_EQ(options.chains.sharpness, 0.8);
+    EXPECT_LT(options.chains.sharpness, usual.chains.sharpness);
+    EXPECT_EQ(options.chain_share, 0.6);
+    EXPECT_EQ(options.least_chain_gain, 0);
+    EXPECT_EQ(options.fit.smoothness, 0.25);
+  }
+  for (const char* name : {"draft", "photo", "fine"}) {
+    SCOPED_TRACE(name);
+    VectorizeOptions options;
+    apply(preset_named(name), two_halves(600, 400), options);
+    EXPECT_EQ(options.tears.mode, TearOptions::Mode::automatic);
+    EXPECT_EQ(options.chains.sharpness, usual.chains.sharpness);
+    EXPECT_EQ(options.chain_share, usual.chain_share);
+    EXPECT_EQ(options.least_chain_gain, usual.least_chain_gain);
+    EXPECT_EQ(options.fit.smoothness, usual.fit.smoothness);
+  }
+}
+
 TEST(Preset, UnknownNamesAreRefused) {
   try {
     preset_named("poster");

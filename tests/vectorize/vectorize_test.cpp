@@ -179,6 +179,9 @@ TEST(Vectorize, RefusesOptionsOutOfRangeOfStagesThatALatticeLeavesOut) {
   EXPECT_TRUE(refused([](VectorizeOptions& o) { o.chains.contrast = 0; }));
   EXPECT_TRUE(refused([](VectorizeOptions& o) { o.tears.price = -1; }));
   EXPECT_TRUE(refused([](VectorizeOptions& o) { o.fit.tolerance = 0; }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.fit.max_iterations = 0; }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.optimize.rounds = -1; }));
+  EXPECT_TRUE(refused([](VectorizeOptions& o) { o.optimize.min_scaled_jacobian = 0; }));
 }
 
 TEST(Vectorize, StopsWhenTheObserverSaysSo) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "arc_division.h"
 #include "chain_curve.h"
@@ -35,14 +36,15 @@ class ChainSampler {
   /// A sample for a lattice point at s, or the one nearby.
   double take(double s, double spacing) {
     const auto after = std::lower_bound(places_.begin(), places_.end(), s);
-    double best = s, distance = kClosest * spacing;
+    std::optional<double> nearby;
+    double distance = kClosest * spacing;
     const auto consider = [&](double place) {
-      if (std::abs(place - s) < distance) best = place, distance = std::abs(place - s);
+      if (std::abs(place - s) < distance) nearby = place, distance = std::abs(place - s);
     };
     if (after != places_.end()) consider(*after);
     if (after != places_.begin()) consider(*std::prev(after));
-    if (best == s) places_.insert(after, s);
-    return best;
+    if (!nearby) places_.insert(after, s);
+    return nearby.value_or(s);
   }
 
   void fill_gaps() {

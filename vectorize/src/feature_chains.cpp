@@ -20,11 +20,12 @@ namespace {
 
 // Cells of half a pixel keep both sides of thin lines apart, up to so many pixels.
 constexpr long long kFinePixels = 4'000'000;
-constexpr float kLevelsPerUnit = 255;     // of the gradient, for the watershed
-constexpr double kLeastSeparation = 0.8;  // pixels
-constexpr double kLeastDepth = 0.5;       // of a basin, of the pass out of it
-constexpr double kSidesPerPixel = 1.2;    // of a staircase, per length; a mean over directions
-constexpr float kNoise = 0.02f;           // gradients below it, per pixel, count as flat
+constexpr float kLevelsPerUnit = 255;      // of the gradient, for the watershed
+constexpr double kLeastSeparation = 0.8;   // pixels
+constexpr double kLeastDepth = 0.5;        // of a basin, of the pass out of it
+constexpr double kSidesPerPixel = 1.2;     // of a staircase, per length; a mean over directions
+constexpr double kLongestMinLength = 1e9;  // far more than a picture's edges, and countable
+constexpr float kNoise = 0.02f;            // gradients below it, per pixel, count as flat
 
 /// Norm of the differences over a pixel at the centres of the cells, per pixel, each a mean over
 /// half a pixel on either side (Sobel's), without which it undulates along oblique edges.
@@ -79,10 +80,11 @@ FieldGrid<unsigned char> levels(const FieldGrid<float>& gradient) {
 void check_options(const ChainOptions& options) {
   const auto is_good = [](double v) { return v > 0 && std::isfinite(v); };
   if (!is_good(options.contrast) || !is_good(options.weak_contrast) ||
-      !(options.sharpness >= 0 && options.sharpness <= 1) || !(options.min_length >= 0)) {
+      !(options.sharpness >= 0 && options.sharpness <= 1) ||
+      !(options.min_length >= 0 && options.min_length <= kLongestMinLength)) {
     throw Error(ErrorCode::invalid_argument,
                 "feature chains need positive contrasts, a sharpness between 0 and 1, and a "
-                "length of at least 0");
+                "length from 0 to 1e9 pixels");
   }
 }
 

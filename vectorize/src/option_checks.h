@@ -8,13 +8,18 @@
 
 namespace quadrille {
 
+struct VectorizeOptions;
+
 /// Each throws Error{invalid_argument} for options outside their ranges. The stages check their
-/// own; quadrangulate() checks all of them first, with those of tears and fits, also where it
-/// leaves a stage out.
+/// own.
 void check_options(const CrossFieldOptions& options);
 void check_options(const ScaleOptions& options);
 void check_options(const PositionOptions& options);
 void check_options(const SnapOptions& options);
 void check_options(const ChainOptions& options);
+
+/// Checks all of them, with those of tears, fits and vertices and the density map, before the work
+/// starts, also where a stage is left out. Throws Error{limit_exceeded} above kMaxQuads.
+void check_options(const VectorizeOptions& options);
 
 }  // namespace quadrille

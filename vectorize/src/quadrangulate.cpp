@@ -22,34 +22,6 @@ constexpr double kRoundingSlack = 1 + 1e-9;
 constexpr double kShortestRegionEdge = 2;
 constexpr double kDraftMiss = 0.1;  // of a draft's count, relative
 
-void check(const VectorizeOptions& options) {
-  if (options.quads < 1) {
-    throw Error(ErrorCode::invalid_argument,
-                "the number of quads is " + std::to_string(options.quads) + "; ask for at least 1");
-  }
-  if (options.quads > kMaxQuads) {
-    throw Error(ErrorCode::limit_exceeded, "the number of quads is " +
-                                               std::to_string(options.quads) +
-                                               "; ask for at most " + std::to_string(kMaxQuads));
-  }
-  check_options(options.cross_field);
-  check_options(options.scale);
-  check_options(options.position);
-  check_options(options.snap);
-  check_options(options.chains);
-  check_options(options.tears);
-  check_options(options.fit);
-  if (options.feedback < 0) {
-    throw Error(
-        ErrorCode::invalid_argument,
-        "the number of feedback rounds is " + std::to_string(options.feedback) + "; use 0 or more");
-  }
-  if (!(options.chain_share >= 0 && options.chain_share <= 1) || !(options.least_chain_gain >= 0)) {
-    throw Error(ErrorCode::invalid_argument,
-                "the share of vertices on chains is from 0 to 1, and the least gain at least 0");
-  }
-}
-
 std::vector<std::pair<std::string, double>> phase_figures(const CrossField& cross) {
   std::vector<std::pair<std::string, double>> figures;
   for (const CrossFieldPhase& phase : cross.phases) {
@@ -109,9 +81,8 @@ Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& opt
 
 Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& options,
                               MeshQuality quality, const RunContext& context) {
-  check(options);
+  check_options(options);
   check_raster(picture);
-  if (!options.density.data.empty()) check_raster(options.density);
   Quadrangulation result;
   result.outline = wanted_outline(picture, options);
   const bool whole = result.outline.empty();

@@ -3,12 +3,76 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace quadrille {
 namespace {
 
 constexpr int kLevels = 256;
+
+/// The grid with a rim that is never entered: as high as can be, and labelled.
+struct RimmedGrid {
+  int width, height, stride;
+  std::vector<unsigned char> level_at;
+  std::vector<int> label;  ///< basin of each cell, -1 for none yet
+
+  explicit RimmedGrid(const FieldGrid<unsigned char>& heights)
+      : width(heights.width),
+        height(heights.height),
+        stride(width + 2),
+        level_at(static_cast<std::size_t>(stride) * (height + 2), kLevels - 1),
+        label(level_at.size(), 0) {
+    for (int y = 0; y < height; ++y) {
+      std::copy_n(&heights.data[static_cast<std::size_t>(width) * y], width,
+                  &level_at[row_begin(y)]);
+      std::fill_n(&label[row_begin(y)], width, -1);
+    }
+  }
+
+  std::size_t row_begin(int y) const { return static_cast<std::size_t>(stride) * (y + 1) + 1; }
+
+  template <class Visit>
+  void for_neighbours(int i, const Visit& visit) const {
+    visit(i - 1), visit(i + 1), visit(i - stride), visit(i + stride);
+  }
+
+  FieldGrid<int> labels_without_rim() const {
+    FieldGrid<int> basin(width, height);
+    for (int y = 0; y < height; ++y) {
+      std::copy_n(&label[row_begin(y)], width, &basin.data[static_cast<std::size_t>(width) * y]);
+    }
+    return basin;
+  }
+};
+
+/// The cells inside the rim in ascending order, by counting, and where each level begins.
+struct SortedCells {
+  std::vector<int> cells;
+  std::array<int, kLevels + 1> level_begin{};
+
+  explicit SortedCells(const RimmedGrid& grid)
+      : cells(static_cast<std::size_t>(grid.width) * grid.height) {
+    for_each_cell(grid, [&](int i) { ++level_begin[grid.level_at[i] + 1]; });
+    std::partial_sum(level_begin.begin(), level_begin.end(), level_begin.begin());
+    std::array<int, kLevels + 1> next = level_begin;
+    for_each_cell(grid, [&](int i) { cells[next[grid.level_at[i]]++] = i; });
+  }
+
+  std::span<const int> at_level(int level) const {
+    return std::span(cells).subspan(level_begin[level],
+                                    level_begin[level + 1] - level_begin[level]);
+  }
+
+ private:
+  template <class Visit>
+  static void for_each_cell(const RimmedGrid& grid, const Visit& visit) {
+    for (int y = 0; y < grid.height; ++y) {
+      const int begin = static_cast<int>(grid.row_begin(y));
+      for (int i = begin; i < begin + grid.width; ++i) visit(i);
+    }
+  }
+};
 
 /// A place where two basins meet.
 struct Pass {
@@ -49,38 +113,16 @@ struct SortedPasses {
 }  // namespace
 
 FieldGrid<int> catchment_basins(const FieldGrid<unsigned char>& height) {
-  // With a rim that is never entered: as high as can be, and labelled.
-  const int w = height.width, h = height.height, stride = w + 2;
-  std::vector<unsigned char> level_at(static_cast<std::size_t>(stride) * (h + 2), kLevels - 1);
-  std::vector<int> label(level_at.size(), 0);
-  const auto row_begin = [&](int y) { return static_cast<std::size_t>(stride) * (y + 1) + 1; };
-  for (int y = 0; y < h; ++y) {
-    std::copy_n(&height.data[static_cast<std::size_t>(w) * y], w, &level_at[row_begin(y)]);
-    std::fill_n(&label[row_begin(y)], w, -1);
-  }
-  // Cells in ascending order, by counting.
-  std::array<int, kLevels + 1> level_begin{};
-  for (const unsigned char level : height.data) ++level_begin[level + 1];
-  std::partial_sum(level_begin.begin(), level_begin.end(), level_begin.begin());
-  std::vector<int> order(height.data.size());
-  std::array<int, kLevels + 1> next = level_begin;
-  for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) {
-      const int i = static_cast<int>(row_begin(y)) + x;
-      order[next[level_at[i]]++] = i;
-    }
-  }
-
-  const auto for_neighbours = [&](int i, const auto& visit) {
-    visit(i - 1), visit(i + 1), visit(i - stride), visit(i + stride);
-  };
+  RimmedGrid grid(height);
+  const SortedCells sorted(grid);
+  std::vector<int>& label = grid.label;
   int basins = 0;
   std::vector<int> queue;
   const auto flood = [&](int level) {
     for (std::size_t head = 0; head < queue.size(); ++head) {
       const int from = queue[head];
-      for_neighbours(from, [&](int n) {
-        if (label[n] >= 0 || level_at[n] != level) return;
+      grid.for_neighbours(from, [&](int n) {
+        if (label[n] >= 0 || grid.level_at[n] != level) return;
         label[n] = label[from];
         queue.push_back(n);
       });
@@ -89,29 +131,25 @@ FieldGrid<int> catchment_basins(const FieldGrid<unsigned char>& height) {
   for (int level = 0; level < kLevels; ++level) {
     // Lower basins first reach into the new level, all at the same speed, ...
     queue.clear();
-    for (int k = level_begin[level]; k < level_begin[level + 1]; ++k) {
+    for (const int cell : sorted.at_level(level)) {
       int from = -1;
-      for_neighbours(order[k], [&](int n) {
-        if (from < 0 && label[n] >= 0 && level_at[n] < level) from = n;
+      grid.for_neighbours(cell, [&](int n) {
+        if (from < 0 && label[n] >= 0 && grid.level_at[n] < level) from = n;
       });
       if (from < 0) continue;
-      label[order[k]] = label[from];
-      queue.push_back(order[k]);
+      label[cell] = label[from];
+      queue.push_back(cell);
     }
     flood(level);
     // ... and what they do not reach are new minima.
-    for (int k = level_begin[level]; k < level_begin[level + 1]; ++k) {
-      if (label[order[k]] >= 0) continue;
-      label[order[k]] = basins++;
-      queue.assign(1, order[k]);
+    for (const int cell : sorted.at_level(level)) {
+      if (label[cell] >= 0) continue;
+      label[cell] = basins++;
+      queue.assign(1, cell);
       flood(level);
     }
   }
-  FieldGrid<int> basin(w, h);
-  for (int y = 0; y < h; ++y) {
-    std::copy_n(&label[row_begin(y)], w, &basin.data[static_cast<std::size_t>(w) * y]);
-  }
-  return basin;
+  return grid.labels_without_rim();
 }
 
 FieldGrid<int> merge_shallow_basins(const FieldGrid<unsigned char>& height, FieldGrid<int> basin,

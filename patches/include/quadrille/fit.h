@@ -27,7 +27,7 @@ struct FitOptions {
   /// The conjugate gradients start at the Bessel solution and stop when its residual has fallen by
   /// this factor; in (0, 1).
   double tolerance = 1e-4;
-  int max_iterations = 200;
+  int max_iterations = 200;  ///< of the conjugate gradients, positive
 };
 
 /// Throws Error{invalid_argument} for options outside their ranges, as what takes them does.

@@ -18,6 +18,9 @@ struct OptimizeOptions {
   double min_scaled_jacobian = 0.2;
 };
 
+/// Throws Error{invalid_argument} for options outside their ranges, as optimize_vertices() does.
+void check_options(const OptimizeOptions& options);
+
 /// One step that was tried.
 struct OptimizeRound {
   bool accepted = false;
@@ -39,10 +42,11 @@ struct OptimizeReport {
 /// better, by joint Gauss-Newton steps on colours and positions with the damping of Levenberg and
 /// Marquardt (Nocedal, Wright, Numerical Optimization, section 10.3). The derivative by a position
 /// is the central difference of the mean of the picture and what the patches show, tears
-/// box-filtered as render() does, so that their jumps count. Beside the
-/// squared error the steps lower `shape_weight` times the sum over all corners of
-/// (|a|^2 + |b|^2) / (2 det(a, b)), where a and b are the sides that meet there, in units of the
-/// squared error of a mean quad. A step is taken when it lowers the sum.
+/// box-filtered as render() does, so that their jumps count. A step is
+/// taken when it lowers the squared error plus the fit's own terms plus 0.16 `shape_weight` r n E.
+/// r is the root of the mean squared error at the start, n the mean number of pixel centres in a
+/// quad, and E the sum over all corners of (|a|^2 + |b|^2) / (2 det(a, b)), where a and b are the
+/// sides that meet there (MIPS energy; Hormann, Greiner 2000).
 ///
 /// Connectivity, tears and the region that the mesh covers stay: border vertices slide along
 /// straight axis-parallel borders or stay; vertices inside a chain of tears slide along it, its
@@ -51,8 +55,10 @@ struct OptimizeReport {
 /// the picture. The same bits for any thread count.
 ///
 /// Colours that do not minimise the error (FitMethod::bessel) gain nothing from it, so for them no
-/// round is taken. The patches come from fit_colors() with the same picture and options. Throws
-/// what that throws, and Error{invalid_argument} for options outside their ranges.
+/// round is taken; neither is one where no patch contains a pixel centre. The patches come from
+/// fit_colors() with the same picture and options. Throws what that throws, and
+/// Error{invalid_argument} for options outside their ranges, and, where rounds are to be taken, for
+/// quads that are not strictly convex, whose shape energy is infinite.
 OptimizeReport optimize_vertices(PatchMesh& patches, const Raster& picture,
                                  const OptimizeOptions& options = {}, const FitOptions& fit = {},
                                  const RunContext& context = {});

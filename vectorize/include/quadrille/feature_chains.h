@@ -17,7 +17,8 @@ struct ChainOptions {
   /// Least mean sharpness: the share of the contrast that lies within one pixel on either side; an
   /// unblurred edge has 1, a smooth ramp 0.4. In [0, 1].
   double sharpness = 0.86;
-  /// Chains shorter than this, in pixels, are left out where one of their ends is free.
+  /// Chains shorter than this, in pixels, are left out where one of their ends is free. In
+  /// [0, 1e9].
   double min_length = 6;
 };
 

@@ -112,7 +112,8 @@ Quadrangulation quadrangulate(const Raster& picture, const VectorizeOptions& opt
 /// Meshes the picture once more, with the same cross field, so that every quad comes to the same
 /// error: more quads where `fitted`, a rendering at scale 1 of the picture's fit to the mesh so
 /// far, differs from it more, and feature edges along the chains beside which it differs most. A
-/// lattice stays as it is. Throws as quadrangulate() does.
+/// lattice stays as it is; where no new mesh is valid, the one so far is only snapped to features.
+/// Throws as quadrangulate() does, and Error{invalid_argument} when the sizes differ.
 void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster& fitted,
                      const VectorizeOptions& options, const RunContext& context = {});
 
