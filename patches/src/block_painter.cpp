@@ -9,16 +9,18 @@ namespace {
 
 constexpr std::size_t kPlane = std::size_t{1} * kBlockSide * kBlockSide;
 
+/// Blocks may begin left of the window and end right of it.
+constexpr int kOverhang = kBlockSides[0];
+
 void set_planes(std::vector<float>& memory, SamplePlanes& planes) {
-  memory.assign(4 * kPlane + ColorBatch::kPadding, 0.0f);
-  for (int k = 0; k < 4; ++k) planes.channel[k] = memory.data() + k * kPlane;
+  memory.assign(kOverhang + 4 * kPlane + kOverhang, 0.0f);
+  for (int k = 0; k < 4; ++k) planes.channel[k] = memory.data() + kOverhang + k * kPlane;
   planes.stride = kBlockSide;
 }
 
 }  // namespace
 
-BlockPainter::BlockPainter()
-    : points_(std::make_unique<Pending>()), parameters_(std::make_unique<Pending>()) {
+BlockPainter::BlockPainter() : points_(std::make_unique<Pending>()) {
   set_planes(memory_[0], picture_);
   set_planes(memory_[1], layer_);
 }
@@ -71,9 +73,7 @@ void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> pat
   outline_.find(scene.scan(), patches, window_);
   outlines_.start(scene.scan(), window_);
   if (with_alpha_ && scene.patches().opaque) {
-    for (const auto& pending : {points_.get(), parameters_.get()}) {
-      std::ranges::fill(pending->colors.color[3], 1.0f);
-    }
+    std::ranges::fill(points_->colors.color[3], 1.0f);
   }
   // Backwards, so that of patches that overlap the lowest one is seen.
   for (auto q = patches.rbegin(); q != patches.rend(); ++q) {
@@ -94,13 +94,10 @@ void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> pat
   points_->colors.count = 0;
 }
 
-void BlockPainter::flush(Pending& pending, PatchShader& shader) {
+void BlockPainter::flush(PatchShader& shader) {
+  Pending& pending = *points_;
   if (pending.colors.count == 0) return;
-  if (&pending == points_.get()) {
-    shader.shade(pending.colors);
-  } else {
-    shader.shade_at_parameters(pending.colors);
-  }
+  shader.shade(pending.colors);
   scatter_runs(pending.colors, pending.runs, pending.run_count, channels(),
                {layer_.channel[0], layer_.channel[1], layer_.channel[2], layer_.channel[3]});
   pending.colors.count = pending.run_count = 0;
@@ -109,15 +106,14 @@ void BlockPainter::flush(Pending& pending, PatchShader& shader) {
 void BlockPainter::paint_interior(const LayerScene& scene, int patch) {
   PatchShader shader(scene, patch);
   // Blocks pay where a patch covers a good part of several, wherever the window is cut.
-  constexpr int kLeast = 3 * kParameterBlock / 2;
+  constexpr int kLeast = 12;
   const SampleWindow bounds = scene.scan().bounds(patch);
   if (std::min(bounds.x_end - bounds.x_begin, bounds.y_end - bounds.y_begin) < kLeast) {
     for (const SampleSpan& s : spans_) paint_points(shader, s);
   } else {
     paint_blocks(shader, intersection(bounds, window_));
   }
-  flush(*points_, shader);
-  flush(*parameters_, shader);
+  flush(shader);
 }
 
 void BlockPainter::paint_points(PatchShader& shader, const SampleSpan& s) {
@@ -125,7 +121,7 @@ void BlockPainter::paint_points(PatchShader& shader, const SampleSpan& s) {
   const int left = window_.x_begin - shader.origin()[0], top = window_.y_begin - shader.origin()[1];
   const float y = static_cast<float>(top + s.y) + 0.5f;
   for (int begin = s.x_begin; begin < s.x_end;) {
-    if (!points_->has_room(1, 1)) flush(*points_, shader);
+    if (!points_->has_room(1, 1)) flush(shader);
     const int count = std::min(s.x_end - begin, ColorBatch::kCapacity - batch.count);
     // In whole groups: what is too much is written over.
     float* const xs = batch.x + batch.count;
@@ -142,62 +138,87 @@ void BlockPainter::paint_points(PatchShader& shader, const SampleSpan& s) {
   }
 }
 
-/// By blocks on the absolute grid, where their polynomials are good enough.
+/// By the largest blocks on the absolute grids whose polynomials are good enough.
 void BlockPainter::paint_blocks(PatchShader& shader, const SampleWindow& part) {
-  constexpr int kSide = kParameterBlock;
-  const int first_x = part.x_begin / kSide, last_x = (part.x_end - 1) / kSide + 1;
-  const int first_y = part.y_begin / kSide, last_y = (part.y_end - 1) / kSide + 1;
-  ParameterBlock blocks[kBlocks * kBlocks];
-  bool fit[kBlocks * kBlocks];
-  int count = 0;
-  for (int y = first_y; y < last_y; ++y) {
-    for (int x = first_x; x < last_x; ++x) {
-      blocks[count++] = {static_cast<float>(x * kSide - shader.origin()[0]),
-                         static_cast<float>(y * kSide - shader.origin()[1])};
+  find_bands();
+  tried_.clear();
+  constexpr int kLargest = kBlockSides[0];
+  for (int y = part.y_begin / kLargest * kLargest; y < part.y_end; y += kLargest) {
+    for (int x = part.x_begin / kLargest * kLargest; x < part.x_end; x += kLargest) {
+      tried_.push_back({x, y});
     }
   }
-  shader.judge(blocks, count, fit);
-  auto span = spans_.begin();
-  for (int y = first_y; y < last_y; ++y) {
-    const int band_end = (y + 1) * kSide - window_.y_begin;
-    const auto begin = span;
-    while (span != spans_.end() && span->y < band_end) ++span;
-    for (int x = first_x; x < last_x; ++x) {
-      paint_block(shader, x * kSide, y * kSide, {begin, span},
-                  fit[(y - first_y) * (last_x - first_x) + (x - first_x)]);
+  for (const int side : kBlockSides) {
+    paint_fitting(shader, side);
+    if (side == kSmallest || tried_.empty()) break;
+    for (std::size_t i = 0, count = tried_.size(); i < count; ++i) {
+      const auto [x, y] = tried_[i];
+      const int half = side / 2;
+      tried_.push_back({x + half, y});
+      tried_.push_back({x, y + half});
+      tried_.push_back({x + half, y + half});
     }
+  }
+  if (!tried_.empty()) paint_rest(shader);
+}
+
+/// Paints the blocks tried, of this side, that fit; the others remain.
+void BlockPainter::paint_fitting(PatchShader& shader, int side) {
+  std::erase_if(tried_, [&](const Corner& c) { return spans_in(c.x, c.y, side).empty(); });
+  blocks_.clear();
+  for (const Corner& c : tried_) {
+    blocks_.push_back({static_cast<float>(c.x - shader.origin()[0]),
+                       static_cast<float>(c.y - shader.origin()[1])});
+  }
+  std::array<bool, kBlocks * kBlocks> fit;
+  shader.judge(side, blocks_, fit.data());
+  std::size_t rest = 0;
+  for (std::size_t i = 0; i < tried_.size(); ++i) {
+    const Corner& c = tried_[i];
+    const BlockTarget target = {c.x - window_.x_begin, c.y - window_.y_begin,
+                                spans_in(c.x, c.y, side), layer_};
+    if (!fit[i] || !shader.paint(side, blocks_[i], target)) tried_[rest++] = c;
+  }
+  tried_.resize(rest);
+}
+
+/// Sorts the spans into bands as high as the smallest blocks.
+void BlockPainter::find_bands() {
+  bands_.fill({0, 0, 0, 0});
+  const int first = window_.y_begin / kSmallest * kSmallest - window_.y_begin;
+  for (int i = 0; i < static_cast<int>(spans_.size()); ++i) {
+    const SampleSpan& s = spans_[i];
+    Band& band = bands_[(s.y - first) / kSmallest];
+    if (band.begin == band.end) band = {i, i, s.x_begin, s.x_end};
+    band.end = i + 1;
+    band.x_begin = std::min(band.x_begin, s.x_begin);
+    band.x_end = std::max(band.x_end, s.x_end);
   }
 }
 
-/// The parts of the spans in the block whose first sample is (x, y).
-void BlockPainter::paint_block(PatchShader& shader, int x, int y, std::span<const SampleSpan> spans,
-                               bool fit) {
-  const int left = x - window_.x_begin, top = y - window_.y_begin;
-  rows_.clear();
-  for (const SampleSpan& s : spans) {
-    const int begin = std::max(s.x_begin, left);
-    const int end = std::min(s.x_end, left + kParameterBlock);
-    if (begin < end) rows_.push_back({s.y - top, begin - left, end - begin});
+/// The rows of spans that may reach into a block; empty when none does.
+std::span<const SampleSpan> BlockPainter::spans_in(int x, int y, int side) const {
+  const int left = x - window_.x_begin;
+  const int first = y / kSmallest - window_.y_begin / kSmallest;
+  int begin = 0, end = 0;
+  for (int i = std::max(first, 0); i < std::min(first + side / kSmallest, kBlocks); ++i) {
+    const Band& band = bands_[i];
+    if (band.begin == band.end || band.x_begin >= left + side || band.x_end <= left) continue;
+    if (begin == end) begin = band.begin;
+    end = band.end;
   }
-  if (rows_.empty()) return;
-  Pending& pending = *parameters_;
-  const int row_count = static_cast<int>(rows_.size());
-  if (fit && !pending.has_room(kParameterBlock * kParameterBlock, row_count)) {
-    flush(pending, shader);
-  }
-  int at = pending.colors.count;
-  const ParameterBlock block = {static_cast<float>(x - shader.origin()[0]),
-                                static_cast<float>(y - shader.origin()[1])};
-  if (fit && shader.add(block, rows_, pending.colors)) {
-    for (const BlockRow& row : rows_) {
-      pending.runs[pending.run_count++] = {at, row.count,
-                                           (top + row.y) * layer_.stride + left + row.x};
-      at += row.count;
+  return {spans_.data() + begin, spans_.data() + end};
+}
+
+/// Point by point what lies in the smallest blocks tried.
+void BlockPainter::paint_rest(PatchShader& shader) {
+  for (const Corner& c : tried_) {
+    const int left = c.x - window_.x_begin;
+    for (const SampleSpan& s : spans_in(c.x, c.y, kSmallest)) {
+      const SampleSpan inside = {s.y, std::max(s.x_begin, left),
+                                 std::min(s.x_end, left + kSmallest)};
+      if (inside.x_begin < inside.x_end) paint_points(shader, inside);
     }
-    return;
-  }
-  for (const BlockRow& row : rows_) {
-    paint_points(shader, {top + row.y, left + row.x, left + row.x + row.count});
   }
 }
 

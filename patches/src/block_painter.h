@@ -1,9 +1,10 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
-#include "block_parameters.h"
+#include "block_colors.h"
 #include "layer_scene.h"
 #include "outline_pixels.h"
 #include "pixel_packer.h"
@@ -38,7 +39,17 @@ class BlockPainter {
       return colors.count + points <= ColorBatch::kCapacity && run_count + runs_wanted <= kRuns;
     }
   };
-  static constexpr int kBlocks = kBlockSide / kParameterBlock;  // in a row of a block of samples
+  static constexpr int kSmallest = kBlockSides[2];
+  static constexpr int kBlocks = kBlockSide / kSmallest;  // in a row of a block of samples
+
+  /// The spans of some rows and the range of columns that they reach into.
+  struct Band {
+    int begin, end, x_begin, x_end;
+  };
+  /// The first sample of a block of colours.
+  struct Corner {
+    int x, y;
+  };
 
   SampleWindow window_;
   bool with_alpha_ = true;
@@ -48,8 +59,10 @@ class BlockPainter {
   std::vector<SampleSpan> spans_;
   OutlinePixels outline_;
   std::vector<OutlinePixels::Share> shares_;
-  std::unique_ptr<Pending> points_, parameters_;
-  std::vector<BlockRow> rows_;
+  std::unique_ptr<Pending> points_;
+  std::array<Band, kBlocks> bands_;
+  std::vector<Corner> tried_;  // blocks of the current patch
+  std::vector<ColorBlock> blocks_;
 
   int width() const { return window_.x_end - window_.x_begin; }
   int channels() const { return with_alpha_ ? 4 : 3; }
@@ -60,8 +73,11 @@ class BlockPainter {
   void paint_interior(const LayerScene& scene, int patch);
   void paint_points(PatchShader& shader, const SampleSpan& span);
   void paint_blocks(PatchShader& shader, const SampleWindow& part);
-  void paint_block(PatchShader& shader, int x, int y, std::span<const SampleSpan> spans, bool fit);
-  void flush(Pending& pending, PatchShader& shader);
+  void find_bands();
+  void paint_fitting(PatchShader& shader, int side);
+  void paint_rest(PatchShader& shader);
+  std::span<const SampleSpan> spans_in(int x, int y, int side) const;
+  void flush(PatchShader& shader);
   /// Of the shares found.
   void paint_outline(PatchShader& shader);
 };
