@@ -77,7 +77,7 @@ void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> pat
   }
   // Backwards, so that of patches that overlap the lowest one is seen.
   for (auto q = patches.rbegin(); q != patches.rend(); ++q) {
-    outlines_.spans(*q, spans_);
+    find_spans(scene, *q);
     if (!spans_.empty()) paint_interior(scene, *q);
   }
   for (const OutlinePixels::Pixel& p : outline_.pixels()) {
@@ -94,6 +94,19 @@ void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> pat
   points_->colors.count = 0;
 }
 
+/// Those of the window.
+void BlockPainter::find_spans(const LayerScene& scene, int patch) {
+  if (!scene.spans().has(patch)) return outlines_.spans(patch, spans_);
+  spans_.clear();
+  const auto all = scene.spans().of(patch);
+  auto s = std::ranges::lower_bound(all, window_.y_begin, {}, &SampleSpan::y);
+  for (; s != all.end() && s->y < window_.y_end; ++s) {
+    const int begin = std::max(s->x_begin, window_.x_begin) - window_.x_begin;
+    const int end = std::min(s->x_end, window_.x_end) - window_.x_begin;
+    if (begin < end) spans_.push_back({s->y - window_.y_begin, begin, end});
+  }
+}
+
 void BlockPainter::flush(PatchShader& shader) {
   Pending& pending = *points_;
   if (pending.colors.count == 0) return;
@@ -105,58 +118,44 @@ void BlockPainter::flush(PatchShader& shader) {
 
 void BlockPainter::paint_interior(const LayerScene& scene, int patch) {
   PatchShader shader(scene, patch);
-  // Blocks pay where a patch covers a good part of several, wherever the window is cut.
-  constexpr int kLeast = 12;
   const SampleWindow bounds = scene.scan().bounds(patch);
-  if (std::min(bounds.x_end - bounds.x_begin, bounds.y_end - bounds.y_begin) < kLeast) {
-    for (const SampleSpan& s : spans_) paint_points(shader, s);
+  const int least = std::min(bounds.x_end - bounds.x_begin, bounds.y_end - bounds.y_begin);
+  // Blocks fit and pay where a patch is some times larger, wherever the window is cut.
+  int largest = kBlockSides[0];
+  while (largest >= kSmallest && 3 * largest > least) largest /= 2;
+  if (largest < kSmallest) {
+    paint_points(shader, spans_);
   } else {
-    paint_blocks(shader, intersection(bounds, window_));
+    paint_blocks(shader, intersection(bounds, window_), largest);
   }
-  flush(shader);
 }
 
-void BlockPainter::paint_points(PatchShader& shader, const SampleSpan& s) {
-  ColorBatch& batch = points_->colors;
+void BlockPainter::paint_points(PatchShader& shader, std::span<const SampleSpan> spans) {
   const int left = window_.x_begin - shader.origin()[0], top = window_.y_begin - shader.origin()[1];
-  const float y = static_cast<float>(top + s.y) + 0.5f;
-  for (int begin = s.x_begin; begin < s.x_end;) {
-    if (!points_->has_room(1, 1)) flush(shader);
-    const int count = std::min(s.x_end - begin, ColorBatch::kCapacity - batch.count);
-    // In whole groups: what is too much is written over.
-    float* const xs = batch.x + batch.count;
-    float* const ys = batch.y + batch.count;
-    for (int i = 0; i < count; i += 8) {
-      for (int k = 0; k < 8; ++k) {
-        xs[i + k] = static_cast<float>(left + begin + i + k) + 0.5f;
-        ys[i + k] = y;
-      }
-    }
-    points_->runs[points_->run_count++] = {batch.count, count, s.y * layer_.stride + begin};
-    batch.count += count;
-    begin += count;
+  while (!spans.empty()) {
+    const int taken = append_spans(spans, left, top, layer_.stride, points_->colors, points_->runs);
+    points_->run_count += taken;
+    spans = spans.subspan(taken);
+    flush(shader);
   }
 }
 
 /// By the largest blocks on the absolute grids whose polynomials are good enough.
-void BlockPainter::paint_blocks(PatchShader& shader, const SampleWindow& part) {
+void BlockPainter::paint_blocks(PatchShader& shader, const SampleWindow& part, int largest) {
   find_bands();
   tried_.clear();
-  constexpr int kLargest = kBlockSides[0];
-  for (int y = part.y_begin / kLargest * kLargest; y < part.y_end; y += kLargest) {
-    for (int x = part.x_begin / kLargest * kLargest; x < part.x_end; x += kLargest) {
+  for (int y = part.y_begin / largest * largest; y < part.y_end; y += largest) {
+    for (int x = part.x_begin / largest * largest; x < part.x_end; x += largest) {
       tried_.push_back({x, y});
     }
   }
-  for (const int side : kBlockSides) {
+  for (int side = largest;; side /= 2) {
     paint_fitting(shader, side);
-    if (side == kSmallest || tried_.empty()) break;
+    if (side == kSmallest) break;
+    const int half = side / 2;
     for (std::size_t i = 0, count = tried_.size(); i < count; ++i) {
       const auto [x, y] = tried_[i];
-      const int half = side / 2;
-      tried_.push_back({x + half, y});
-      tried_.push_back({x, y + half});
-      tried_.push_back({x + half, y + half});
+      tried_.insert(tried_.end(), {{x + half, y}, {x, y + half}, {x + half, y + half}});
     }
   }
   if (!tried_.empty()) paint_rest(shader);
@@ -212,14 +211,15 @@ std::span<const SampleSpan> BlockPainter::spans_in(int x, int y, int side) const
 
 /// Point by point what lies in the smallest blocks tried.
 void BlockPainter::paint_rest(PatchShader& shader) {
+  rest_.clear();
   for (const Corner& c : tried_) {
     const int left = c.x - window_.x_begin;
     for (const SampleSpan& s : spans_in(c.x, c.y, kSmallest)) {
-      const SampleSpan inside = {s.y, std::max(s.x_begin, left),
-                                 std::min(s.x_end, left + kSmallest)};
-      if (inside.x_begin < inside.x_end) paint_points(shader, inside);
+      const int begin = std::max(s.x_begin, left), end = std::min(s.x_end, left + kSmallest);
+      if (begin < end) rest_.push_back({s.y, begin, end});
     }
   }
+  paint_points(shader, rest_);
 }
 
 void BlockPainter::paint_outline(PatchShader& shader) {

@@ -30,14 +30,9 @@ class BlockPainter {
  private:
   /// Points or parameters of one patch, and where their colours go.
   struct Pending {
-    static constexpr int kRuns = 256;
     ColorBatch colors;
-    PointRun runs[kRuns];
+    PointRun runs[ColorBatch::kRuns];
     int run_count = 0;
-
-    bool has_room(int points, int runs_wanted) const {
-      return colors.count + points <= ColorBatch::kCapacity && run_count + runs_wanted <= kRuns;
-    }
   };
   static constexpr int kSmallest = kBlockSides[2];
   static constexpr int kBlocks = kBlockSide / kSmallest;  // in a row of a block of samples
@@ -61,6 +56,7 @@ class BlockPainter {
   std::vector<OutlinePixels::Share> shares_;
   std::unique_ptr<Pending> points_;
   std::array<Band, kBlocks> bands_;
+  std::vector<SampleSpan> rest_;
   std::vector<Corner> tried_;  // blocks of the current patch
   std::vector<ColorBlock> blocks_;
 
@@ -68,11 +64,12 @@ class BlockPainter {
   int channels() const { return with_alpha_ ? 4 : 3; }
   void clear(SamplePlanes& planes);
   void merge_layer();
+  void find_spans(const LayerScene& scene, int patch);
   void paint_layer(const LayerScene& scene, std::span<const int> patches);
   /// Of the spans found in the window.
   void paint_interior(const LayerScene& scene, int patch);
-  void paint_points(PatchShader& shader, const SampleSpan& span);
-  void paint_blocks(PatchShader& shader, const SampleWindow& part);
+  void paint_points(PatchShader& shader, std::span<const SampleSpan> spans);
+  void paint_blocks(PatchShader& shader, const SampleWindow& part, int largest);
   void find_bands();
   void paint_fitting(PatchShader& shader, int side);
   void paint_rest(PatchShader& shader);
