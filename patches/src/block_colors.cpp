@@ -140,25 +140,33 @@ HWY_INLINE void widen(ColorDerivatives& c, const V& reach) {
 }
 
 /// Bounds of the derivatives of orders 1 to 4 of the inverse in a disc of radius r around points
-/// whose Jacobian's inverse is of norm b. With a majorant's help |J^-1| <= m = b / (1 - e) as far
-/// as `reach` = 3/2 b r from their parameters, where e = b |Q''| reach is at most 1/3, so that the
-/// disc's image stays within reach.
+/// whose Jacobian's inverse is of norm b. At distance d from their parameters |J^-1| is at most
+/// b / (1 - b |Q''| d), so a way of length x in the disc leads no farther than d with
+/// d - b |Q''| d^2 / 2 = b x, and the disc's image stays within
+/// `reach` = (1 - (1 - 2 b^2 |Q''| r)^(1/2)) / (b |Q''|). |Q''| is bounded as far as 3/2 b r, which
+/// reach must not exceed.
 struct InverseBound {
   V order[5], reach;
   Mask valid;
 };
 HWY_INLINE InverseBound bound_inverse(const Derivatives& q, const V& b, float r) {
-  const V one = number(1), reach = number(1.5f * r) * b;
-  const V third = q.third + reach * q.fourth;
-  const V second = q.second + reach * (q.third + number(0.5f) * reach * q.fourth);
-  const V e = b * second * reach;
-  const V m = b / (one - hn::Min(e, number(0.5f))), m2 = m * m;
+  const V one = number(1), half = number(0.5f);
+  const V straight = b * number(r), most = number(1.5f) * straight;
+  const auto second_within = [&](const V& d) {
+    return q.second + d * (q.third + half * d * q.fourth);
+  };
+  const V root =
+      hn::Sqrt(hn::Max(one - number(2) * b * second_within(most) * straight, hn::Zero(Floats())));
+  // (1 - root) / (b |Q''|) without cancellation.
+  const V reach = number(2) * straight / (one + root);
+  const V third = q.third + reach * q.fourth, second = second_within(reach);
+  const V m = b / root, m2 = m * m;
   // Faa di Bruno: the terms of the derivatives of an inverse, all of one sign.
   const V bend = m * second;
   return {{one, m, m2 * bend, m2 * m2 * (third + number(3) * (bend * second)),
            m2 * m2 * m * (q.fourth + bend * (number(10) * third + number(15) * (bend * second)))},
           reach,
-          e <= number(1.0f / 3)};
+          root >= number(1.0f / 3)};
 }
 
 /// A bound of the fourth derivatives of the colours as functions of the point: Faa di Bruno's
@@ -173,7 +181,7 @@ HWY_INLINE V fourth_derivatives(const ColorDerivatives& color, const InverseBoun
 void judge(const PatchProgram& p, const float (&map)[6], bool opaque, int side,
            std::span<const ColorBlock> blocks, bool* fit) {
   const Floats d;
-  constexpr float kAllowed = 1.0f / 200 / 255;
+  constexpr float kAllowed = 1.0f / 130 / 255;
   const float half = static_cast<float>(side) / 2, quarter = half / 2;
   const float across[2] = {map[0] + map[1], map[3] + map[4]};
   const float along[2] = {map[0] - map[1], map[3] - map[4]};
@@ -229,7 +237,7 @@ HWY_INLINE bool find_nodes(const PatchProgram& p, const float (&map)[6], const C
     const Normalized point = normalized(map, hn::Load(d, xs + i), hn::Load(d, ys + i));
     // Interpolation may add up the nodes' errors to 3.4 times the largest.
     Parameters at[1];
-    invert<1>(p, {point.x}, {point.y}, kReach, 4 * kSteeper, at);
+    invert<1>(p, {point.x}, {point.y}, kReach, 8 * kSteeper, at);
     if (!hn::AllTrue(d, at[0].found)) return false;
     for (int k = 0; k < channels; ++k) {
       hn::Store(bicubic(p.color[k], at[0].s, at[0].t), d, colors[k] + i);

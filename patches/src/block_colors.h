@@ -18,7 +18,7 @@ struct ColorBlock {
 };
 
 /// Whether interpolation at 4 x 4 Chebyshev nodes gives the colours in each block of side `side` to
-/// 1/200 of an 8-bit step. Proven, not tried: by bounds of the derivatives of the inverse and of
+/// 1/130 of an 8-bit step. Proven, not tried: by bounds of the derivatives of the inverse and of
 /// the colours. A block's answer does not depend on the others; all instruction sets agree.
 void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
                   std::span<const ColorBlock> blocks, bool* fit);

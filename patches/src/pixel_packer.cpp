@@ -81,6 +81,7 @@ HWY_INLINE void finish(const float* const (&in)[4], int x, bool has_alpha,
       for (int k = 0; k < 3; ++k) c[k] = c[k] / divisor;
     }
   }
+  if (!has_alpha) return;  // opaque samples lie in [0, 1] but for rounding
   for (int k = 0; k < 3; ++k) {
     c[k] = hn::Min(hn::Max(c[k], zero), premultiplied ? c[3] : one);
   }
