@@ -1,6 +1,7 @@
 #include "block_painter.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "patch_shader.h"
 
@@ -43,7 +44,7 @@ const SamplePlanes& BlockPainter::paint(const std::vector<LayerScene>& scenes,
   for (const LayerScene& scene : scenes) {
     const auto patches = scene.patches_at(window);
     if (patches.empty()) continue;
-    clear(layer_);
+    layer_.has_alpha = with_alpha_;
     paint_layer(scene, patches);
     if (first) {
       std::swap(picture_, layer_);
@@ -75,11 +76,15 @@ void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> pat
   if (with_alpha_ && scene.patches().opaque) {
     std::ranges::fill(points_->colors.color[3], 1.0f);
   }
+  covered_.fill({});
   // Backwards, so that of patches that overlap the lowest one is seen.
   for (auto q = patches.rbegin(); q != patches.rend(); ++q) {
     find_spans(scene, *q);
-    if (!spans_.empty()) paint_interior(scene, *q);
+    if (spans_.empty()) continue;
+    cover();
+    paint_interior(scene, *q);
   }
+  clear_uncovered();
   for (const OutlinePixels::Pixel& p : outline_.pixels()) {
     const std::ptrdiff_t at = (p.y - window_.y_begin) * layer_.stride + (p.x - window_.x_begin);
     for (int k = 0; k < channels(); ++k) layer_.channel[k][at] = 0;
@@ -92,6 +97,37 @@ void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> pat
     paint_outline(shader);
   }
   points_->colors.count = 0;
+}
+
+/// Marks the samples of the spans.
+void BlockPainter::cover() {
+  const auto bits_before = [](int x) {
+    return x <= 0 ? 0 : x >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << x) - 1;
+  };
+  for (const SampleSpan& s : spans_) {
+    for (int i = 0; i < kWords; ++i) {
+      covered_[s.y][i] |= bits_before(s.x_end - 64 * i) & ~bits_before(s.x_begin - 64 * i);
+    }
+  }
+}
+
+void BlockPainter::clear_uncovered() {
+  for (int y = 0; y < window_.y_end - window_.y_begin; ++y) {
+    for (int x = 0; x < width();) {
+      const std::uint64_t rest = covered_[y][x / 64] >> x % 64;
+      if (rest & 1) {
+        x += std::countr_one(rest);
+        continue;
+      }
+      const int free = std::min(std::countr_zero(rest), 64 - x % 64);
+      const int end = std::min(x + free, width());
+      for (int k = 0; k < channels(); ++k) {
+        float* const row = layer_.channel[k] + y * layer_.stride;
+        std::fill(row + x, row + end, 0.0f);
+      }
+      x = end;
+    }
+  }
 }
 
 /// Those of the window.

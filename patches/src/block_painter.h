@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -34,6 +35,7 @@ class BlockPainter {
     PointRun runs[ColorBatch::kRuns];
     int run_count = 0;
   };
+  static constexpr int kWords = kBlockSide / 64;
   static constexpr int kSmallest = kBlockSides[2];
   static constexpr int kBlocks = kBlockSide / kSmallest;  // in a row of a block of samples
 
@@ -52,6 +54,8 @@ class BlockPainter {
   SamplePlanes picture_, layer_;
   TileOutlines outlines_;
   std::vector<SampleSpan> spans_;
+  /// A bit for each sample of a row that a patch covers.
+  std::array<std::array<std::uint64_t, kWords>, kBlockSide> covered_;
   OutlinePixels outline_;
   std::vector<OutlinePixels::Share> shares_;
   std::unique_ptr<Pending> points_;
@@ -64,6 +68,8 @@ class BlockPainter {
   int channels() const { return with_alpha_ ? 4 : 3; }
   void clear(SamplePlanes& planes);
   void merge_layer();
+  void cover();
+  void clear_uncovered();
   void find_spans(const LayerScene& scene, int patch);
   void paint_layer(const LayerScene& scene, std::span<const int> patches);
   /// Of the spans found in the window.
