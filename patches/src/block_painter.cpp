@@ -105,7 +105,7 @@ void BlockPainter::cover() {
     return x <= 0 ? 0 : x >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << x) - 1;
   };
   for (const SampleSpan& s : spans_) {
-    for (int i = 0; i < kWords; ++i) {
+    for (int i = s.x_begin / 64; 64 * i < s.x_end; ++i) {
       covered_[s.y][i] |= bits_before(s.x_end - 64 * i) & ~bits_before(s.x_begin - 64 * i);
     }
   }
