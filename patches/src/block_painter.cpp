@@ -199,19 +199,23 @@ void BlockPainter::paint_blocks(PatchShader& shader, const SampleWindow& part, i
 
 /// Paints the blocks tried, of this side, that fit; the others remain.
 void BlockPainter::paint_fitting(PatchShader& shader, int side) {
-  std::erase_if(tried_, [&](const Corner& c) { return spans_in(c.x, c.y, side).empty(); });
   blocks_.clear();
+  inside_.clear();
+  std::size_t count = 0;
   for (const Corner& c : tried_) {
+    const auto spans = spans_in(c.x, c.y, side);
+    if (spans.empty()) continue;
+    tried_[count++] = c;
+    inside_.push_back(spans);
     blocks_.push_back({static_cast<float>(c.x - shader.origin()[0]),
                        static_cast<float>(c.y - shader.origin()[1])});
   }
   std::array<bool, kBlocks * kBlocks> fit;
   shader.judge(side, blocks_, fit.data());
   std::size_t rest = 0;
-  for (std::size_t i = 0; i < tried_.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const Corner& c = tried_[i];
-    const BlockTarget target = {c.x - window_.x_begin, c.y - window_.y_begin,
-                                spans_in(c.x, c.y, side), layer_};
+    const BlockTarget target = {c.x - window_.x_begin, c.y - window_.y_begin, inside_[i], layer_};
     if (!fit[i] || !shader.paint(side, blocks_[i], target)) tried_[rest++] = c;
   }
   tried_.resize(rest);

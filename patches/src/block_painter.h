@@ -61,8 +61,9 @@ class BlockPainter {
   std::unique_ptr<Pending> points_;
   std::array<Band, kBlocks> bands_;
   std::vector<SampleSpan> rest_;
-  std::vector<Corner> tried_;  // blocks of the current patch
-  std::vector<ColorBlock> blocks_;
+  std::vector<Corner> tried_;       // blocks of the current patch
+  std::vector<ColorBlock> blocks_;  // those tried, and their rows
+  std::vector<std::span<const SampleSpan>> inside_;
 
   int width() const { return window_.x_end - window_.x_begin; }
   int channels() const { return with_alpha_ ? 4 : 3; }
