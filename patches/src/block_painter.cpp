@@ -1,6 +1,7 @@
 #include "block_painter.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "patch_shader.h"
 
@@ -9,16 +10,18 @@ namespace {
 
 constexpr std::size_t kPlane = std::size_t{1} * kBlockSide * kBlockSide;
 
+/// Blocks may begin left of the window and end right of it.
+constexpr int kOverhang = kBlockSides[0];
+
 void set_planes(std::vector<float>& memory, SamplePlanes& planes) {
-  memory.assign(4 * kPlane + ColorBatch::kPadding, 0.0f);
-  for (int k = 0; k < 4; ++k) planes.channel[k] = memory.data() + k * kPlane;
+  memory.assign(kOverhang + 4 * kPlane + kOverhang, 0.0f);
+  for (int k = 0; k < 4; ++k) planes.channel[k] = memory.data() + kOverhang + k * kPlane;
   planes.stride = kBlockSide;
 }
 
 }  // namespace
 
-BlockPainter::BlockPainter()
-    : points_(std::make_unique<Pending>()), parameters_(std::make_unique<Pending>()) {
+BlockPainter::BlockPainter() : points_(std::make_unique<Pending>()) {
   set_planes(memory_[0], picture_);
   set_planes(memory_[1], layer_);
 }
@@ -41,7 +44,7 @@ const SamplePlanes& BlockPainter::paint(const std::vector<LayerScene>& scenes,
   for (const LayerScene& scene : scenes) {
     const auto patches = scene.patches_at(window);
     if (patches.empty()) continue;
-    clear(layer_);
+    layer_.has_alpha = with_alpha_;
     paint_layer(scene, patches);
     if (first) {
       std::swap(picture_, layer_);
@@ -71,15 +74,17 @@ void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> pat
   outline_.find(scene.scan(), patches, window_);
   outlines_.start(scene.scan(), window_);
   if (with_alpha_ && scene.patches().opaque) {
-    for (const auto& pending : {points_.get(), parameters_.get()}) {
-      std::ranges::fill(pending->colors.color[3], 1.0f);
-    }
+    std::ranges::fill(points_->colors.color[3], 1.0f);
   }
+  covered_.fill({});
   // Backwards, so that of patches that overlap the lowest one is seen.
   for (auto q = patches.rbegin(); q != patches.rend(); ++q) {
-    outlines_.spans(*q, spans_);
-    if (!spans_.empty()) paint_interior(scene, *q);
+    find_spans(scene, *q);
+    if (spans_.empty()) continue;
+    cover();
+    paint_interior(scene, *q);
   }
+  clear_uncovered();
   for (const OutlinePixels::Pixel& p : outline_.pixels()) {
     const std::ptrdiff_t at = (p.y - window_.y_begin) * layer_.stride + (p.x - window_.x_begin);
     for (int k = 0; k < channels(); ++k) layer_.channel[k][at] = 0;
@@ -94,13 +99,54 @@ void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> pat
   points_->colors.count = 0;
 }
 
-void BlockPainter::flush(Pending& pending, PatchShader& shader) {
-  if (pending.colors.count == 0) return;
-  if (&pending == points_.get()) {
-    shader.shade(pending.colors);
-  } else {
-    shader.shade_at_parameters(pending.colors);
+/// Marks the samples of the spans.
+void BlockPainter::cover() {
+  const auto bits_before = [](int x) {
+    return x <= 0 ? 0 : x >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << x) - 1;
+  };
+  for (const SampleSpan& s : spans_) {
+    for (int i = s.x_begin / 64; 64 * i < s.x_end; ++i) {
+      covered_[s.y][i] |= bits_before(s.x_end - 64 * i) & ~bits_before(s.x_begin - 64 * i);
+    }
   }
+}
+
+void BlockPainter::clear_uncovered() {
+  for (int y = 0; y < window_.y_end - window_.y_begin; ++y) {
+    for (int x = 0; x < width();) {
+      const std::uint64_t rest = covered_[y][x / 64] >> x % 64;
+      if (rest & 1) {
+        x += std::countr_one(rest);
+        continue;
+      }
+      const int free = std::min(std::countr_zero(rest), 64 - x % 64);
+      const int end = std::min(x + free, width());
+      for (int k = 0; k < channels(); ++k) {
+        float* const row = layer_.channel[k] + y * layer_.stride;
+        std::fill(row + x, row + end, 0.0f);
+      }
+      x = end;
+    }
+  }
+}
+
+/// Those of the window.
+void BlockPainter::find_spans(const LayerScene& scene, int patch) {
+  if (!scene.spans().has(patch)) return outlines_.spans(patch, spans_);
+  spans_.clear();
+  const auto all = scene.spans().of(patch);
+  auto s = std::ranges::lower_bound(all, window_.y_begin, {}, &SampleSpan::y);
+  for (; s != all.end() && s->y < window_.y_end; ++s) {
+    const int begin = std::max(s->x_begin, window_.x_begin) - window_.x_begin;
+    const int end = std::min(s->x_end, window_.x_end) - window_.x_begin;
+    if (begin < end) spans_.push_back({s->y - window_.y_begin, begin, end});
+  }
+}
+
+void BlockPainter::flush(PatchShader& shader) {
+  Pending& pending = *points_;
+  if (pending.colors.count == 0) return;
+  shader.shade(pending.colors);
   scatter_runs(pending.colors, pending.runs, pending.run_count, channels(),
                {layer_.channel[0], layer_.channel[1], layer_.channel[2], layer_.channel[3]});
   pending.colors.count = pending.run_count = 0;
@@ -108,97 +154,112 @@ void BlockPainter::flush(Pending& pending, PatchShader& shader) {
 
 void BlockPainter::paint_interior(const LayerScene& scene, int patch) {
   PatchShader shader(scene, patch);
-  // Blocks pay where a patch covers a good part of several, wherever the window is cut.
-  constexpr int kLeast = 3 * kParameterBlock / 2;
   const SampleWindow bounds = scene.scan().bounds(patch);
-  if (std::min(bounds.x_end - bounds.x_begin, bounds.y_end - bounds.y_begin) < kLeast) {
-    for (const SampleSpan& s : spans_) paint_points(shader, s);
+  const int least = std::min(bounds.x_end - bounds.x_begin, bounds.y_end - bounds.y_begin);
+  // Blocks fit and pay where a patch is some times larger, wherever the window is cut.
+  int largest = kBlockSides[0];
+  while (largest >= kSmallest && 3 * largest > least) largest /= 2;
+  if (largest < kSmallest) {
+    paint_points(shader, spans_);
   } else {
-    paint_blocks(shader, intersection(bounds, window_));
+    paint_blocks(shader, intersection(bounds, window_), largest);
   }
-  flush(*points_, shader);
-  flush(*parameters_, shader);
 }
 
-void BlockPainter::paint_points(PatchShader& shader, const SampleSpan& s) {
-  ColorBatch& batch = points_->colors;
+void BlockPainter::paint_points(PatchShader& shader, std::span<const SampleSpan> spans) {
   const int left = window_.x_begin - shader.origin()[0], top = window_.y_begin - shader.origin()[1];
-  const float y = static_cast<float>(top + s.y) + 0.5f;
-  for (int begin = s.x_begin; begin < s.x_end;) {
-    if (!points_->has_room(1, 1)) flush(*points_, shader);
-    const int count = std::min(s.x_end - begin, ColorBatch::kCapacity - batch.count);
-    // In whole groups: what is too much is written over.
-    float* const xs = batch.x + batch.count;
-    float* const ys = batch.y + batch.count;
-    for (int i = 0; i < count; i += 8) {
-      for (int k = 0; k < 8; ++k) {
-        xs[i + k] = static_cast<float>(left + begin + i + k) + 0.5f;
-        ys[i + k] = y;
-      }
-    }
-    points_->runs[points_->run_count++] = {batch.count, count, s.y * layer_.stride + begin};
-    batch.count += count;
-    begin += count;
+  while (!spans.empty()) {
+    const int taken = append_spans(spans, left, top, layer_.stride, points_->colors, points_->runs);
+    points_->run_count += taken;
+    spans = spans.subspan(taken);
+    flush(shader);
   }
 }
 
-/// By blocks on the absolute grid, where their polynomials are good enough.
-void BlockPainter::paint_blocks(PatchShader& shader, const SampleWindow& part) {
-  constexpr int kSide = kParameterBlock;
-  const int first_x = part.x_begin / kSide, last_x = (part.x_end - 1) / kSide + 1;
-  const int first_y = part.y_begin / kSide, last_y = (part.y_end - 1) / kSide + 1;
-  ParameterBlock blocks[kBlocks * kBlocks];
-  bool fit[kBlocks * kBlocks];
-  int count = 0;
-  for (int y = first_y; y < last_y; ++y) {
-    for (int x = first_x; x < last_x; ++x) {
-      blocks[count++] = {static_cast<float>(x * kSide - shader.origin()[0]),
-                         static_cast<float>(y * kSide - shader.origin()[1])};
+/// By the largest blocks on the absolute grids whose polynomials are good enough.
+void BlockPainter::paint_blocks(PatchShader& shader, const SampleWindow& part, int largest) {
+  find_bands();
+  tried_.clear();
+  for (int y = part.y_begin / largest * largest; y < part.y_end; y += largest) {
+    for (int x = part.x_begin / largest * largest; x < part.x_end; x += largest) {
+      tried_.push_back({x, y});
     }
   }
-  shader.judge(blocks, count, fit);
-  auto span = spans_.begin();
-  for (int y = first_y; y < last_y; ++y) {
-    const int band_end = (y + 1) * kSide - window_.y_begin;
-    const auto begin = span;
-    while (span != spans_.end() && span->y < band_end) ++span;
-    for (int x = first_x; x < last_x; ++x) {
-      paint_block(shader, x * kSide, y * kSide, {begin, span},
-                  fit[(y - first_y) * (last_x - first_x) + (x - first_x)]);
+  for (int side = largest;; side /= 2) {
+    paint_fitting(shader, side);
+    if (side == kSmallest) break;
+    const int half = side / 2;
+    for (std::size_t i = 0, count = tried_.size(); i < count; ++i) {
+      const auto [x, y] = tried_[i];
+      tried_.insert(tried_.end(), {{x + half, y}, {x, y + half}, {x + half, y + half}});
     }
+  }
+  if (!tried_.empty()) paint_rest(shader);
+}
+
+/// Paints the blocks tried, of this side, that fit; the others remain.
+void BlockPainter::paint_fitting(PatchShader& shader, int side) {
+  blocks_.clear();
+  inside_.clear();
+  std::size_t count = 0;
+  for (const Corner& c : tried_) {
+    const auto spans = spans_in(c.x, c.y, side);
+    if (spans.empty()) continue;
+    tried_[count++] = c;
+    inside_.push_back(spans);
+    blocks_.push_back({static_cast<float>(c.x - shader.origin()[0]),
+                       static_cast<float>(c.y - shader.origin()[1])});
+  }
+  std::array<bool, kBlocks * kBlocks> fit;
+  shader.judge(side, blocks_, fit.data());
+  std::size_t rest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Corner& c = tried_[i];
+    const BlockTarget target = {c.x - window_.x_begin, c.y - window_.y_begin, inside_[i], layer_};
+    if (!fit[i] || !shader.paint(side, blocks_[i], target)) tried_[rest++] = c;
+  }
+  tried_.resize(rest);
+}
+
+/// Sorts the spans into bands as high as the smallest blocks.
+void BlockPainter::find_bands() {
+  bands_.fill({0, 0, 0, 0});
+  const int first = window_.y_begin / kSmallest * kSmallest - window_.y_begin;
+  for (int i = 0; i < static_cast<int>(spans_.size()); ++i) {
+    const SampleSpan& s = spans_[i];
+    Band& band = bands_[(s.y - first) / kSmallest];
+    if (band.begin == band.end) band = {i, i, s.x_begin, s.x_end};
+    band.end = i + 1;
+    band.x_begin = std::min(band.x_begin, s.x_begin);
+    band.x_end = std::max(band.x_end, s.x_end);
   }
 }
 
-/// The parts of the spans in the block whose first sample is (x, y).
-void BlockPainter::paint_block(PatchShader& shader, int x, int y, std::span<const SampleSpan> spans,
-                               bool fit) {
-  const int left = x - window_.x_begin, top = y - window_.y_begin;
-  rows_.clear();
-  for (const SampleSpan& s : spans) {
-    const int begin = std::max(s.x_begin, left);
-    const int end = std::min(s.x_end, left + kParameterBlock);
-    if (begin < end) rows_.push_back({s.y - top, begin - left, end - begin});
+/// The rows of spans that may reach into a block; empty when none does.
+std::span<const SampleSpan> BlockPainter::spans_in(int x, int y, int side) const {
+  const int left = x - window_.x_begin;
+  const int first = y / kSmallest - window_.y_begin / kSmallest;
+  int begin = 0, end = 0;
+  for (int i = std::max(first, 0); i < std::min(first + side / kSmallest, kBlocks); ++i) {
+    const Band& band = bands_[i];
+    if (band.begin == band.end || band.x_begin >= left + side || band.x_end <= left) continue;
+    if (begin == end) begin = band.begin;
+    end = band.end;
   }
-  if (rows_.empty()) return;
-  Pending& pending = *parameters_;
-  const int row_count = static_cast<int>(rows_.size());
-  if (fit && !pending.has_room(kParameterBlock * kParameterBlock, row_count)) {
-    flush(pending, shader);
-  }
-  int at = pending.colors.count;
-  const ParameterBlock block = {static_cast<float>(x - shader.origin()[0]),
-                                static_cast<float>(y - shader.origin()[1])};
-  if (fit && shader.add(block, rows_, pending.colors)) {
-    for (const BlockRow& row : rows_) {
-      pending.runs[pending.run_count++] = {at, row.count,
-                                           (top + row.y) * layer_.stride + left + row.x};
-      at += row.count;
+  return {spans_.data() + begin, spans_.data() + end};
+}
+
+/// Point by point what lies in the smallest blocks tried.
+void BlockPainter::paint_rest(PatchShader& shader) {
+  rest_.clear();
+  for (const Corner& c : tried_) {
+    const int left = c.x - window_.x_begin;
+    for (const SampleSpan& s : spans_in(c.x, c.y, kSmallest)) {
+      const int begin = std::max(s.x_begin, left), end = std::min(s.x_end, left + kSmallest);
+      if (begin < end) rest_.push_back({s.y, begin, end});
     }
-    return;
   }
-  for (const BlockRow& row : rows_) {
-    paint_points(shader, {top + row.y, left + row.x, left + row.x + row.count});
-  }
+  paint_points(shader, rest_);
 }
 
 void BlockPainter::paint_outline(PatchShader& shader) {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "block_parameters.h"
+#include "block_colors.h"
 #include "layer_scene.h"
 #include "outline_pixels.h"
 #include "pixel_packer.h"
@@ -29,16 +31,22 @@ class BlockPainter {
  private:
   /// Points or parameters of one patch, and where their colours go.
   struct Pending {
-    static constexpr int kRuns = 256;
     ColorBatch colors;
-    PointRun runs[kRuns];
+    PointRun runs[ColorBatch::kRuns];
     int run_count = 0;
-
-    bool has_room(int points, int runs_wanted) const {
-      return colors.count + points <= ColorBatch::kCapacity && run_count + runs_wanted <= kRuns;
-    }
   };
-  static constexpr int kBlocks = kBlockSide / kParameterBlock;  // in a row of a block of samples
+  static constexpr int kWords = kBlockSide / 64;
+  static constexpr int kSmallest = kBlockSides[2];
+  static constexpr int kBlocks = kBlockSide / kSmallest;  // in a row of a block of samples
+
+  /// The spans of some rows and the range of columns that they reach into.
+  struct Band {
+    int begin, end, x_begin, x_end;
+  };
+  /// The first sample of a block of colours.
+  struct Corner {
+    int x, y;
+  };
 
   SampleWindow window_;
   bool with_alpha_ = true;
@@ -46,22 +54,34 @@ class BlockPainter {
   SamplePlanes picture_, layer_;
   TileOutlines outlines_;
   std::vector<SampleSpan> spans_;
+  /// A bit for each sample of a row that a patch covers.
+  std::array<std::array<std::uint64_t, kWords>, kBlockSide> covered_;
   OutlinePixels outline_;
   std::vector<OutlinePixels::Share> shares_;
-  std::unique_ptr<Pending> points_, parameters_;
-  std::vector<BlockRow> rows_;
+  std::unique_ptr<Pending> points_;
+  std::array<Band, kBlocks> bands_;
+  std::vector<SampleSpan> rest_;
+  std::vector<Corner> tried_;       // blocks of the current patch
+  std::vector<ColorBlock> blocks_;  // those tried, and their rows
+  std::vector<std::span<const SampleSpan>> inside_;
 
   int width() const { return window_.x_end - window_.x_begin; }
   int channels() const { return with_alpha_ ? 4 : 3; }
   void clear(SamplePlanes& planes);
   void merge_layer();
+  void cover();
+  void clear_uncovered();
+  void find_spans(const LayerScene& scene, int patch);
   void paint_layer(const LayerScene& scene, std::span<const int> patches);
   /// Of the spans found in the window.
   void paint_interior(const LayerScene& scene, int patch);
-  void paint_points(PatchShader& shader, const SampleSpan& span);
-  void paint_blocks(PatchShader& shader, const SampleWindow& part);
-  void paint_block(PatchShader& shader, int x, int y, std::span<const SampleSpan> spans, bool fit);
-  void flush(Pending& pending, PatchShader& shader);
+  void paint_points(PatchShader& shader, std::span<const SampleSpan> spans);
+  void paint_blocks(PatchShader& shader, const SampleWindow& part, int largest);
+  void find_bands();
+  void paint_fitting(PatchShader& shader, int side);
+  void paint_rest(PatchShader& shader);
+  std::span<const SampleSpan> spans_in(int x, int y, int side) const;
+  void flush(PatchShader& shader);
   /// Of the shares found.
   void paint_outline(PatchShader& shader);
 };

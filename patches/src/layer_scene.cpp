@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kRange = 512;            // patches worked on at a time
 constexpr std::size_t kMostPoints = 1u << 22;  // of outlines that are kept, 16 bytes each
+constexpr std::size_t kMostSpans = 1u << 22;   // 12 bytes each
 
 }  // namespace
 
@@ -65,16 +66,19 @@ void LayerScene::find_wanted() {
 void LayerScene::prepare(const std::array<double, 2>& scale, const SampleWindow& window,
                          WorkArena& arena) {
   if (scale == scale_ && window == window_) return;
-  if (scale != scale_ || scan_.point_count() > kMostPoints) {
+  if (scale != scale_ || scan_.point_count() > kMostPoints || spans_.span_count() > kMostSpans) {
     scale_ = {0, 0};  // until everything is done
     to_samples_ = Eigen::Scaling(scale[0], scale[1]) * layer_.transform;
     from_samples_ = to_samples_.inverse();
     scan_.start(to_samples_);
+    spans_.start(boxes_.size());
   }
   window_ = window;
   find_wanted();
   scale_ = {0, 0};
-  scan_.add(wanted_, [&](std::size_t count, const auto& body) { arena.for_each(count, body); });
+  const auto for_each = [&](std::size_t count, const auto& body) { arena.for_each(count, body); };
+  scan_.add(wanted_, for_each);
+  spans_.add(scan_, wanted_, for_each);
   bins_.fill(scan_, wanted_, window);
   scale_ = scale;
 }

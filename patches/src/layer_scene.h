@@ -6,6 +6,7 @@
 #include "patch_bins.h"
 #include "patch_program.h"
 #include "patch_scan.h"
+#include "patch_spans.h"
 #include "quadrille/vector_image.h"
 #include "work_arena.h"
 
@@ -28,6 +29,7 @@ class LayerScene {
 
   const PatchMesh& patches() const { return layer_.patches; }
   const PatchScan& scan() const { return scan_; }
+  const PatchSpans& spans() const { return spans_; }
   const PatchProgram& program(int patch) const { return programs_.of(patch); }
   const Eigen::Affine2d& to_samples() const { return to_samples_; }
   const Eigen::Affine2d& from_samples() const { return from_samples_; }
@@ -49,6 +51,7 @@ class LayerScene {
   Eigen::Affine2d to_samples_, from_samples_;
   std::vector<int> wanted_;
   PatchScan scan_;
+  PatchSpans spans_;
   PatchBins bins_;
   PatchPrograms programs_;
 

@@ -10,12 +10,20 @@ namespace {
 std::int64_t floor_sample(std::int64_t c) { return c >> kFixedBits; }
 std::int64_t ceil_sample(std::int64_t c) { return (c + kFixedOne - 1) >> kFixedBits; }
 
-/// Sum of the positions of the bits that are set.
-int sum_of_positions(std::uint16_t bits) {
-  return std::popcount<std::uint16_t>(bits & 0xAAAA) +
-         2 * std::popcount<std::uint16_t>(bits & 0xCCCC) +
-         4 * std::popcount<std::uint16_t>(bits & 0xF0F0) +
-         8 * std::popcount<std::uint16_t>(bits & 0xFF00);
+/// Number of the bits that are set, and the sum of their positions.
+struct BitSums {
+  int count, positions;
+};
+BitSums bit_sums(unsigned bits) {
+  BitSums sums = {0, 0};
+  // Run by run: mostly there is one.
+  while (bits != 0) {
+    const int begin = std::countr_zero(bits), end = begin + std::countr_one(bits >> begin);
+    sums.count += end - begin;
+    sums.positions += (begin + end - 1) * (end - begin) / 2;
+    bits &= ~0u << end;
+  }
+  return sums;
 }
 
 /// Bits begin ... end - 1.
@@ -41,11 +49,13 @@ void OutlinePixels::find(const PatchScan& scan, std::span<const int> patches,
     }
   }
   sums_.assign(pixels_.size(), {});
-  extents_.assign(height, {width(), 0});
+  rows_.assign(height, {width(), 0, {}});
   for (const Pixel& p : pixels_) {
-    Extent& extent = extents_[p.y - window.y_begin];
-    extent.begin = std::min(extent.begin, p.x - window.x_begin);
-    extent.end = std::max(extent.end, p.x - window.x_begin + 1);
+    Row& row = rows_[p.y - window_.y_begin];
+    const int x = p.x - window_.x_begin;
+    row.begin = std::min(row.begin, x);
+    row.end = std::max(row.end, x + 1);
+    row.bits[x / 64] |= std::uint64_t{1} << x % 64;
   }
 }
 
@@ -74,30 +84,38 @@ void OutlinePixels::mark(int x, int y) {
   pixels_.push_back({x, y});
 }
 
-bool OutlinePixels::reaches(const SampleWindow& bounds) const {
-  for (int y = bounds.y_begin; y < bounds.y_end; ++y) {
-    const Extent& extent = extents_[y - window_.y_begin];
-    if (extent.begin < bounds.x_end - window_.x_begin &&
-        bounds.x_begin - window_.x_begin < extent.end) {
-      return true;
-    }
+/// The rows of a part of the window from the first to the last that has crossed pixels in it.
+SampleWindow OutlinePixels::crossed_part(const SampleWindow& bounds) const {
+  std::array<std::uint64_t, kBlockSide / 64> columns = {};
+  for (int x = bounds.x_begin - window_.x_begin; x < bounds.x_end - window_.x_begin; ++x) {
+    columns[x / 64] |= std::uint64_t{1} << x % 64;
   }
-  return false;
+  SampleWindow part = {bounds.x_begin, bounds.y_end, bounds.x_end, bounds.y_begin};
+  for (int y = bounds.y_begin; y < bounds.y_end; ++y) {
+    std::uint64_t common = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      common |= columns[i] & rows_[y - window_.y_begin].bits[i];
+    }
+    if (common == 0) continue;
+    part.y_begin = std::min(part.y_begin, y);
+    part.y_end = y + 1;
+  }
+  return part;
 }
 
 void OutlinePixels::take(const PatchScan& scan, int patch, std::vector<Share>& shares) {
   shares.clear();
   if (pixels_.empty()) return;
-  const SampleWindow bounds = intersection(scan.touched(patch), window_);
-  if (bounds.empty() || !reaches(bounds)) return;
+  const SampleWindow bounds = crossed_part(intersection(scan.touched(patch), window_));
+  if (bounds.empty()) return;
   scan.spans(patch, bounds, kDivisionBits, spans_);
   touched_.clear();
   for (const SampleSpan& s : spans_) {
     const int row = bounds.y_begin - window_.y_begin + (s.y >> kDivisionBits);
     const int sub_row = s.y & (kDivision - 1);
     const int left = bounds.x_begin - window_.x_begin;  // of the spans' first sample
-    const int first = std::max(left + (s.x_begin >> kDivisionBits), extents_[row].begin);
-    const int last = std::min(left + ((s.x_end - 1) >> kDivisionBits) + 1, extents_[row].end);
+    const int first = std::max(left + (s.x_begin >> kDivisionBits), rows_[row].begin);
+    const int last = std::min(left + ((s.x_end - 1) >> kDivisionBits) + 1, rows_[row].end);
     for (int x = first; x < last; ++x) {
       const int index = index_[row * width() + x];
       if (index < 0) continue;
@@ -109,10 +127,10 @@ void OutlinePixels::take(const PatchScan& scan, int patch, std::vector<Share>& s
       taken |= bits;
       Sum& sum = sums_[index];
       if (sum.count == 0) touched_.push_back(index);
-      const int count = std::popcount(bits);
-      sum.count += count;
-      sum.x += sum_of_positions(bits);
-      sum.y += count * sub_row;
+      const BitSums added = bit_sums(bits);
+      sum.count += added.count;
+      sum.x += added.positions;
+      sum.y += added.count * sub_row;
     }
   }
   for (const int index : touched_) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "patch_bins.h"
 #include "patch_scan.h"
 
 namespace quadrille {
@@ -43,9 +44,10 @@ class OutlinePixels {
   struct Sum {
     int count, x, y;
   };
-  /// The range of columns of the window where a row has pixels.
-  struct Extent {
+  /// The columns of the window where a row has pixels: their range, and a bit for each.
+  struct Row {
     int begin, end;
+    std::array<std::uint64_t, kBlockSide / 64> bits;
   };
 
   SampleWindow window_;
@@ -54,12 +56,12 @@ class OutlinePixels {
   std::vector<Sum> sums_;   // #pixels, of the current patch
   std::vector<int> touched_;
   std::vector<SampleSpan> spans_;
-  std::vector<Extent> extents_;
+  std::vector<Row> rows_;
 
   int width() const { return window_.x_end - window_.x_begin; }
   void mark_segment(const FixedPoint& a, const FixedPoint& b);
   void mark(int x, int y);
-  bool reaches(const SampleWindow& bounds) const;
+  SampleWindow crossed_part(const SampleWindow& bounds) const;
 };
 
 }  // namespace quadrille

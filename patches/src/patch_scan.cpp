@@ -21,7 +21,7 @@ struct ScanRaster {
 
 /// Walks a segment from row to row in whole numbers: the crossing in row r is in front of sample
 /// ceil(((x0 - half) dy + (center_r - y0) dx) / (unit dy)).
-template <class Wide>
+template <class Wide, bool kDoubles>
 void walk_segment(const FixedPoint& a, const FixedPoint& b, int turn, std::int64_t row_begin,
                   std::int64_t row_end, const ScanRaster& raster,
                   std::vector<Crossing>& crossings) {
@@ -29,9 +29,18 @@ void walk_segment(const FixedPoint& a, const FixedPoint& b, int turn, std::int64
   const Wide dx = b.x - a.x, dy = b.y - a.y, divisor = dy << raster.bits;
   // Quotients are rounded up; their remainders lie in (-divisor, 0].
   const auto divide = [&](Wide numerator) {
-    Wide quotient = numerator / divisor, rest = numerator % divisor;
-    if (rest > 0) ++quotient, rest -= divisor;
-    return std::pair{quotient, rest};
+    if constexpr (kDoubles) {
+      // Both are whole numbers below 2^53: the rounded quotient is never below a whole number that
+      // the true one reaches nor above one that it does not.
+      const double exact = static_cast<double>(numerator) / static_cast<double>(divisor);
+      Wide quotient = static_cast<Wide>(exact);
+      quotient += exact > static_cast<double>(quotient);
+      return std::pair{quotient, numerator - quotient * divisor};
+    } else {
+      Wide quotient = numerator / divisor, rest = numerator % divisor;
+      if (rest > 0) ++quotient, rest -= divisor;
+      return std::pair{quotient, rest};
+    }
   };
   auto [quotient, rest] = divide(Wide((a.x & (unit - 1)) - half) * dy +
                                  Wide((row_begin << raster.bits) + half - a.y) * dx);
@@ -55,11 +64,14 @@ void cross_segment(FixedPoint a, FixedPoint b, int turn, const ScanRaster& raste
   const std::int64_t row_begin = std::max(first_center(a.y, raster.bits), raster.y);
   const std::int64_t row_end = std::min(first_center(b.y, raster.bits), raster.y + raster.rows);
   if (row_begin >= row_end) return;
-  constexpr std::int64_t kNarrow = std::int64_t{1} << 30;
-  if (std::max(b.y - a.y, std::abs(b.x - a.x)) < kNarrow) {
-    walk_segment<std::int64_t>(a, b, turn, row_begin, row_end, raster, crossings);
+  constexpr std::int64_t kSmall = std::int64_t{1} << 25, kNarrow = std::int64_t{1} << 30;
+  const std::int64_t size = std::max(b.y - a.y, std::abs(b.x - a.x));
+  if (size < kSmall) {
+    walk_segment<std::int64_t, true>(a, b, turn, row_begin, row_end, raster, crossings);
+  } else if (size < kNarrow) {
+    walk_segment<std::int64_t, false>(a, b, turn, row_begin, row_end, raster, crossings);
   } else {
-    walk_segment<__int128>(a, b, turn, row_begin, row_end, raster, crossings);
+    walk_segment<__int128, false>(a, b, turn, row_begin, row_end, raster, crossings);
   }
 }
 

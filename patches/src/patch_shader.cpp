@@ -21,21 +21,22 @@ PatchShader::PatchShader(const LayerScene& scene, int patch)
 void PatchShader::shade(ColorBatch& batch) {
   if (program_.regular) {
     invert_points(program_, map_, batch);
-    shade_at_parameters(batch);
+    shade_parameters(program_, scene_.patches().opaque, batch);
     for (int k = 0; k < batch.missing_count; ++k) shade_exactly(batch, batch.missing[k]);
   } else {
     for (int i = 0; i < batch.count; ++i) shade_exactly(batch, i);
   }
 }
 
-void PatchShader::judge(const ParameterBlock* blocks, int count, bool* fit) const {
-  std::fill(fit, fit + count, false);
-  if (program_.regular) judge_blocks(program_, map_, scene_.patches().opaque, blocks, count, fit);
+void PatchShader::judge(int side, std::span<const ColorBlock> blocks, bool* fit) const {
+  std::fill(fit, fit + blocks.size(), false);
+  if (program_.regular) {
+    judge_blocks(program_, map_, scene_.patches().opaque, side, blocks, fit);
+  }
 }
 
-bool PatchShader::add(const ParameterBlock& block, std::span<const BlockRow> rows,
-                      ColorBatch& batch) const {
-  return add_block(program_, map_, block, rows.data(), static_cast<int>(rows.size()), batch);
+bool PatchShader::paint(int side, const ColorBlock& block, const BlockTarget& target) const {
+  return paint_block(program_, map_, scene_.patches().opaque, side, block, target);
 }
 
 void PatchShader::shade_exactly(ColorBatch& batch, int i) {

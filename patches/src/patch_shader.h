@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "block_parameters.h"
+#include "block_colors.h"
 #include "layer_scene.h"
 #include "patch_inverse.h"
 #include "point_shader.h"
@@ -22,14 +22,10 @@ class PatchShader {
 
   /// Colours at the batch's points.
   void shade(ColorBatch& batch);
-  /// Colours at the batch's parameters.
-  void shade_at_parameters(ColorBatch& batch) {
-    shade_parameters(program_, scene_.patches().opaque, batch);
-  }
 
-  /// judge_blocks() and add_block() of the patch.
-  void judge(const ParameterBlock* blocks, int count, bool* fit) const;
-  bool add(const ParameterBlock& block, std::span<const BlockRow> rows, ColorBatch& batch) const;
+  /// judge_blocks() and paint_block() of the patch.
+  void judge(int side, std::span<const ColorBlock> blocks, bool* fit) const;
+  bool paint(int side, const ColorBlock& block, const BlockTarget& target) const;
 
  private:
   /// For points whose parameters Newton's method does not find.

@@ -63,13 +63,14 @@ HWY_INLINE void write_vector(const V (&c)[4], Sample* out) {
 }
 
 /// One vector of samples over the background, as straight or premultiplied pixels.
-HWY_INLINE void finish(const float* const (&in)[4], int x, bool has_alpha,
-                       const std::array<float, 4>& behind, bool premultiplied, V (&c)[4]) {
+template <class Sample, bool has_alpha>
+HWY_INLINE void finish(const float* const (&in)[4], int x, const std::array<float, 4>& behind,
+                       bool premultiplied, V (&c)[4]) {
   const Floats d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   for (int k = 0; k < 3; ++k) c[k] = hn::LoadU(d, in[k] + x);
   c[3] = one;
-  if (has_alpha) {
+  if constexpr (has_alpha) {
     c[3] = hn::LoadU(d, in[3] + x);
     const V through = one - c[3];
     for (int k = 0; k < 4; ++k) c[k] = c[k] + hn::Set(d, behind[k]) * through;
@@ -81,12 +82,15 @@ HWY_INLINE void finish(const float* const (&in)[4], int x, bool has_alpha,
       for (int k = 0; k < 3; ++k) c[k] = c[k] / divisor;
     }
   }
-  for (int k = 0; k < 3; ++k) {
-    c[k] = hn::Min(hn::Max(c[k], zero), premultiplied ? c[3] : one);
+  // Opaque samples lie in [0, 1] but for rounding, which whole numbers swallow.
+  if constexpr (has_alpha || std::is_same_v<Sample, float>) {
+    for (int k = 0; k < 3; ++k) {
+      c[k] = hn::Min(hn::Max(c[k], zero), premultiplied ? c[3] : one);
+    }
   }
 }
 
-template <class Sample, int channels>
+template <class Sample, int channels, bool has_alpha>
 void pack_rows(const SamplePlanes& samples, int width, int height,
                const std::array<float, 4>& behind, bool premultiplied, std::byte* pixels,
                std::ptrdiff_t row_bytes) {
@@ -95,17 +99,18 @@ void pack_rows(const SamplePlanes& samples, int width, int height,
   for (int y = 0; y < height; ++y) {
     const float* in[4];
     for (int k = 0; k < 4; ++k) {
-      in[k] = k < 3 || samples.has_alpha ? samples.channel[k] + y * samples.stride : nullptr;
+      in[k] = k < 3 || has_alpha ? samples.channel[k] + y * samples.stride : nullptr;
     }
     Sample* const out = reinterpret_cast<Sample*>(pixels + y * row_bytes);
-    V c[4];
     int x = 0;
     for (; x + lanes <= width; x += lanes) {
-      finish(in, x, samples.has_alpha, behind, premultiplied, c);
+      V c[4];
+      finish<Sample, has_alpha>(in, x, behind, premultiplied, c);
       write_vector<Sample, channels>(c, out + x * channels);
     }
     if (x < width) {
-      finish(in, x, samples.has_alpha, behind, premultiplied, c);
+      V c[4];
+      finish<Sample, has_alpha>(in, x, behind, premultiplied, c);
       write_vector<Sample, channels>(c, rest);
       std::memcpy(out + x * channels, rest, sizeof(Sample) * channels * (width - x));
     }
@@ -115,7 +120,10 @@ void pack_rows(const SamplePlanes& samples, int width, int height,
 template <class Sample>
 void pack_as(const SamplePlanes& samples, int width, int height, const std::array<float, 4>& behind,
              const PixelLayout& layout, std::byte* pixels, std::ptrdiff_t row_bytes) {
-  const auto pack_rows_of = layout.channels == 3 ? pack_rows<Sample, 3> : pack_rows<Sample, 4>;
+  const auto pack_rows_of =
+      layout.channels == 3
+          ? (samples.has_alpha ? pack_rows<Sample, 3, true> : pack_rows<Sample, 3, false>)
+          : (samples.has_alpha ? pack_rows<Sample, 4, true> : pack_rows<Sample, 4, false>);
   pack_rows_of(samples, width, height, behind, layout.premultiplied, pixels, row_bytes);
 }
 

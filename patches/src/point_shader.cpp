@@ -19,6 +19,30 @@ constexpr float kMargin = 0.02f;
 /// Vectors that are inverted side by side.
 constexpr int kTogether = 2;
 
+int append(std::span<const SampleSpan> spans, int left, int top, std::ptrdiff_t stride,
+           ColorBatch& batch, PointRun* runs) {
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const V centers = hn::Iota(d, 0) + number(0.5f);
+  const int most = std::min(static_cast<int>(spans.size()), ColorBatch::kRuns);
+  int taken = 0, at = batch.count;
+  for (; taken < most; ++taken) {
+    const SampleSpan& s = spans[taken];
+    const int count = s.x_end - s.x_begin;
+    if (at + count > ColorBatch::kCapacity) break;
+    const V y = number(static_cast<float>(top + s.y) + 0.5f);
+    // In whole vectors: what is too much is written over.
+    for (int i = 0; i < count; i += lanes) {
+      hn::StoreU(centers + number(static_cast<float>(left + s.x_begin + i)), d, batch.x + at + i);
+      hn::StoreU(y, d, batch.y + at + i);
+    }
+    runs[taken] = {at, count, s.y * stride + s.x_begin};
+    at += count;
+  }
+  batch.count = at;
+  return taken;
+}
+
 void invert_all(const PatchProgram& p, const float (&map)[6], ColorBatch& batch) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -98,10 +122,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace quadrille {
 namespace {
+HWY_EXPORT(append);
 HWY_EXPORT(invert_all);
 HWY_EXPORT(shade);
 HWY_EXPORT(scatter);
 }  // namespace
+
+int append_spans(std::span<const SampleSpan> spans, int left, int top, std::ptrdiff_t stride,
+                 ColorBatch& batch, PointRun* runs) {
+  return HWY_DYNAMIC_DISPATCH(append)(spans, left, top, stride, batch, runs);
+}
 
 void invert_points(const PatchProgram& program, const float (&map)[6], ColorBatch& batch) {
   batch.missing_count = 0;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "patch_program.h"
+#include "patch_scan.h"
 
 namespace quadrille {
 
@@ -11,6 +13,7 @@ namespace quadrille {
 struct ColorBatch {
   static constexpr int kCapacity = 512;
   static constexpr int kPadding = 32;  ///< arrays are worked on in at most so many at a time
+  static constexpr int kRuns = 256;    ///< at most
 
   int count = 0;
   alignas(64) float x[kCapacity + kPadding], y[kCapacity + kPadding];
@@ -26,6 +29,13 @@ struct PointRun {
   int begin, count;
   std::ptrdiff_t target;
 };
+
+/// Appends the centres of samples of spans; position (left, top) relative to the patch's whole
+/// sample is (0, 0) of the spans, and targets are those of planes with this stride. Returns how
+/// many spans found room, at least one if the batch was empty and no span is longer than its
+/// capacity. Writes one run for each.
+int append_spans(std::span<const SampleSpan> spans, int left, int top, std::ptrdiff_t stride,
+                 ColorBatch& batch, PointRun* runs);
 
 /// The points' parameters; those of missing points are meaningless. `map` takes points to
 /// normalized ones: x = map[0] x + map[1] y + map[2]. Colours err by at most 1/250 of an 8-bit step

@@ -14,9 +14,6 @@ void TileOutlines::start(const PatchScan& scan, const SampleWindow& window) {
   }
   runs_.clear();
   columns_.clear();
-  const std::size_t rows = window.y_end - window.y_begin;
-  left_.resize(std::max(left_.size(), rows));
-  right_.resize(std::max(right_.size(), rows));
 }
 
 void TileOutlines::cross(int edge) {
@@ -123,9 +120,11 @@ bool TileOutlines::simple_spans(int patch, std::vector<SampleSpan>& found) {
       for (int j = 0; j < side.run[i]->count; ++j) *columns++ = from[j];
     }
   };
+  const int rows = left.end() - left.begin();
+  left_.resize(std::max(left_.size(), static_cast<std::size_t>(rows)));
+  right_.resize(left_.size());
   gather(left, left_.data());
   gather(right, right_.data());
-  const int rows = left.end() - left.begin();
   found.resize(rows);
   int count = 0;
   for (int i = 0; i < rows; ++i) {
@@ -138,7 +137,11 @@ bool TileOutlines::simple_spans(int patch, std::vector<SampleSpan>& found) {
 
 void TileOutlines::spans(int patch, std::vector<SampleSpan>& found) {
   found.clear();
-  if (!simple_spans(patch, found)) scan_->spans(patch, window_, 0, found);
+  if (simple_spans(patch, found)) return;
+  const SampleWindow part = intersection(scan_->bounds(patch), window_);
+  scan_->spans(patch, part, 0, found);
+  const int left = part.x_begin - window_.x_begin, top = part.y_begin - window_.y_begin;
+  for (SampleSpan& s : found) s = {s.y + top, s.x_begin + left, s.x_end + left};
 }
 
 }  // namespace quadrille

@@ -166,24 +166,26 @@ TEST(Renderer, RegionsThreadsAndFramesGiveTheSameBytes) {
 }
 
 TEST(Renderer, InstructionSetsGiveTheSameBytes) {
-  const VectorImage image = random_image(8, false);
-  for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32}) {
-    for (const double scale : {0.5, 1.0, 12.0}) {
-      RenderOptions options;
-      options.scale = scale;
-      options.background = {0.2f, 0.4f, 0.6f, 0.5f};
-      Renderer best(image);
-      const Bytes expected = draw(best, image, options, {type, 4});
-      const std::int64_t available = hwy::SupportedTargets();
-      for (std::int64_t rest = available; rest != 0; rest &= rest - 1) {
-        hwy::SetSupportedTargetsForTest(rest & -rest);
+  for (const bool opaque : {false, true}) {
+    const VectorImage image = random_image(8, opaque);
+    for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32}) {
+      for (const double scale : {0.5, 1.0, 7.0, 20.0}) {
+        RenderOptions options;
+        options.scale = scale;
+        options.background = {0.2f, 0.4f, 0.6f, 0.5f};
+        Renderer best(image);
+        const Bytes expected = draw(best, image, options, {type, 4});
+        const std::int64_t available = hwy::SupportedTargets();
+        for (std::int64_t rest = available; rest != 0; rest &= rest - 1) {
+          hwy::SetSupportedTargetsForTest(rest & -rest);
+          hwy::GetChosenTarget().DeInit();
+          Renderer renderer(image);
+          EXPECT_TRUE(draw(renderer, image, options, {type, 4}).data == expected.data)
+              << hwy::TargetName(rest & -rest) << " scale " << scale;
+        }
+        hwy::SetSupportedTargetsForTest(0);
         hwy::GetChosenTarget().DeInit();
-        Renderer renderer(image);
-        EXPECT_TRUE(draw(renderer, image, options, {type, 4}).data == expected.data)
-            << hwy::TargetName(rest & -rest) << " scale " << scale;
       }
-      hwy::SetSupportedTargetsForTest(0);
-      hwy::GetChosenTarget().DeInit();
     }
   }
 }

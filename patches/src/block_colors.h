@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+
+#include "patch_program.h"
+#include "patch_scan.h"
+#include "pixel_packer.h"
+
+namespace quadrille {
+
+/// Samples are cut into square blocks on absolute grids, in each of which a patch's colours are
+/// bicubic polynomials of the sample's position wherever that is exact enough.
+constexpr int kBlockSides[] = {32, 16, 8};
+
+/// A block's first sample relative to the patch's whole sample, see ColorBatch.
+struct ColorBlock {
+  float x, y;
+};
+
+/// Whether interpolation at 4 x 4 Chebyshev nodes gives the colours in each block of side `side` to
+/// 1/130 of an 8-bit step. Proven, not tried: by bounds of the derivatives of the inverse and of
+/// the colours. A block's answer does not depend on the others; all instruction sets agree.
+void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
+                  std::span<const ColorBlock> blocks, bool* fit);
+
+/// Where a block lies in a window, the spans to paint there, and the window's samples.
+struct BlockTarget {
+  int left, top;  ///< the block's first sample
+  std::span<const SampleSpan> spans;
+  const SamplePlanes& samples;  ///< whole rows of the block are read and written again
+};
+
+/// Paints those parts of the spans that lie in a block that judge_blocks() found fit. False, with
+/// nothing painted, where a node's parameters are not found.
+bool paint_block(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
+                 const ColorBlock& block, const BlockTarget& target);
+
+}  // namespace quadrille
