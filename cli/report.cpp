@@ -81,6 +81,21 @@ double cpu_seconds(const rusage& usage) {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+Json options_of(const RunReport& report, const Observer& observer) {
+  return {{"quads", report.chosen.vectorize.quads},
+          {"preset", report.options.preset},
+          {"fit", report.options.fit},
+          {"tears", name_of(report.chosen.vectorize.tears.mode)},
+          {"optimize", report.options.optimize},
+          {"editable", report.options.editable},
+          {"lattice", report.options.lattice},
+          {"mesh", report.options.mesh},
+          {"alignment", report.options.alignment},
+          {"field", report.options.field},
+          {"density", printable_name(report.options.density)},
+          {"threads", observer.context().threads}};
+}
+
 }  // namespace
 
 Measurement measure(const VectorImage& image, const Raster& picture, Observer& observer) {
@@ -101,19 +116,7 @@ void write_report(const RunReport& report, const Observer& observer, const fs::p
       {"source", printable_name(report.source)},
       {"width", v.width},
       {"height", v.height},
-      {"options",
-       {{"quads", report.chosen.vectorize.quads},
-        {"preset", report.options.preset},
-        {"fit", report.options.fit},
-        {"tears", name_of(report.chosen.vectorize.tears.mode)},
-        {"optimize", report.options.optimize},
-        {"editable", report.options.editable},
-        {"lattice", report.options.lattice},
-        {"mesh", report.options.mesh},
-        {"alignment", report.options.alignment},
-        {"field", report.options.field},
-        {"density", printable_name(report.options.density)},
-        {"threads", observer.context().threads}}},
+      {"options", options_of(report, observer)},
       {"preset", preset_of(report.chosen)},
       {"error_bound", error_bound_of(report)},
       {"quads", v.quads},
