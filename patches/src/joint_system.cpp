@@ -13,7 +13,8 @@
 namespace quadrille {
 namespace {
 
-constexpr double kTolerance = 0.1;
+// A round's step is an approximation anyway: at 0.1 it costs a fifth more and gains 0.01 dB.
+constexpr double kTolerance = 0.15;
 constexpr int kMaxIterations = 60;
 /// Keeps vertices in flat parts of a picture defined; squared gradients of one 8-bit step in 100
 /// pixels.

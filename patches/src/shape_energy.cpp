@@ -3,6 +3,8 @@
 #include <array>
 #include <limits>
 
+#include "parallel_ranges.h"
+
 namespace quadrille {
 namespace {
 
@@ -32,6 +34,14 @@ double shape_energy(const QuadMesh& mesh, int q) {
     energy += c.sides.squaredNorm() / (2 * c.determinant);
   }
   return energy;
+}
+
+double shape_energy(const QuadMesh& mesh) {
+  return sum_over_ranges(mesh.quad_count(), 0.0, [&](int begin, int end) {
+    double sum = 0;
+    for (int q = begin; q < end; ++q) sum += shape_energy(mesh, q);
+    return sum;
+  });
 }
 
 ShapeDerivatives shape_derivatives(const QuadMesh& mesh, int q) {

@@ -10,6 +10,8 @@ namespace quadrille {
 /// there: 4 for a square, infinite when a corner is not strictly convex (Hormann, Greiner, MIPS,
 /// 2000, applied corner by corner).
 double shape_energy(const QuadMesh& mesh, int q);
+/// Their sum over all quads; the same bits for any thread count.
+double shape_energy(const QuadMesh& mesh);
 
 /// Its derivatives by the corners' positions, numbered 2 corner + axis. The matrix is that of
 /// Gauss and Newton for the energy as a sum of squares, which is never negative. All corners

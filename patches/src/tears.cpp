@@ -1,17 +1,20 @@
 #include "quadrille/tears.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "fitted_state.h"
+#include "parallel_ranges.h"
 #include "patch_scan.h"
 #include "picture_sampling.h"
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
 #include "quadrille/remove_duplicates.h"
-#include "quadrille/render.h"
 
 namespace quadrille {
 namespace {
@@ -47,37 +50,23 @@ QuadMesh with_chains(const QuadMesh& mesh, const std::vector<std::vector<int>>& 
   return result;
 }
 
-/// Squared difference per pixel between the picture and the patches drawn.
-std::vector<double> squared_errors(const PatchMesh& patches, const Raster& picture,
-                                   const RunContext& context) {
-  const Raster drawn = render(single_layer(patches, picture.width, picture.height), {}, context);
-  std::vector<double> errors;
-  errors.reserve(static_cast<std::size_t>(picture.width) * picture.height);
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const Color shown = premultiplied_pixel(drawn, x, y);
-      Color wanted = premultiplied_pixel(picture, x, y);
-      // An opaque picture goes on beyond the border of the mesh, where nothing is drawn.
-      if (!picture.has_alpha()) wanted *= shown.w();
-      const Color difference = shown - wanted;
-      errors.push_back(difference.cast<double>().square().sum());
-    }
-  }
-  return errors;
-}
-
-/// The squared errors of the picture when some of the chains are torn.
+/// How the picture is fitted when some of the chains are torn.
 struct Trial {
   PatchMesh patches;
-  std::vector<double> errors;  // #pixels
+  std::vector<float> errors;  // #pixels, squared and summed over the channels
 
   /// Geometry from `tangents`.
   Trial(QuadMesh mesh, const std::vector<std::array<Eigen::Vector2d, 2>>& tangents,
         const Raster& picture, const FitOptions& fit, const RunContext& context)
       : patches(straight_patches(std::move(mesh))) {
     patches.edge_tangents = tangents;
-    fit_colors(patches, picture, fit, context);
-    errors = squared_errors(patches, picture, context);
+    fit_colors(patches, picture, {.method = FitMethod::bessel}, context);
+    FittedState state(std::move(patches), picture, fit, context);
+    patches = std::move(state.patches);
+    errors.reserve(static_cast<std::size_t>(picture.width) * picture.height);
+    for (std::size_t i = 0; i < errors.capacity(); ++i) {
+      errors.push_back(state.squared_error_at(picture, i));
+    }
   }
 };
 
@@ -191,32 +180,11 @@ class Judge {
   std::vector<int> all_wedges_;
 };
 
-}  // namespace
-
-void check_options(const TearOptions& options) {
-  const auto reject = [](const std::string& message) {
-    throw Error(ErrorCode::invalid_argument, message);
-  };
-  if (!(options.relative_drop >= 0 && options.relative_drop <= 1)) {
-    reject("the relative drop asked of a tear is " + std::to_string(options.relative_drop) +
-           "; use a share between 0 and 1 such as 0.1");
-  }
-  if (!(options.price >= 0) || !std::isfinite(options.price)) {
-    reject("the price of a tear's numbers is " + std::to_string(options.price) +
-           "; use a number from 0 up such as 6");
-  }
-}
-
-std::vector<char> judge_tears(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains,
-                              const Raster& picture, const FitOptions& fit,
-                              const TearOptions& options, const RunContext& context) {
-  check_options(options);
-  check(mesh, chains);
-  const bool strong = options.mode == TearOptions::Mode::strong;
-  std::vector<char> is_torn(chains.size(), strong);
-  if (options.mode != TearOptions::Mode::automatic || chains.empty()) return is_torn;
-
-  const FitOptions draft = draft_options(fit);
+/// Forward selection from none.
+std::vector<char> paying_chains(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains,
+                                const Raster& picture, const FitOptions& draft,
+                                const TearOptions& options, const RunContext& context) {
+  std::vector<char> is_torn(chains.size(), 0);
   const QuadMesh everything = with_chains(mesh, chains, std::vector<char>(chains.size(), 1));
   const auto tangents = smooth_tangents(everything);
   const Trial all(everything, tangents, picture, draft, context);
@@ -244,6 +212,37 @@ std::vector<char> judge_tears(const QuadMesh& mesh, const std::vector<std::vecto
     }
     if (!is_waiting) break;
   }
+  return is_torn;
+}
+
+}  // namespace
+
+void check_options(const TearOptions& options) {
+  const auto reject = [](const std::string& message) {
+    throw Error(ErrorCode::invalid_argument, message);
+  };
+  if (!(options.relative_drop >= 0 && options.relative_drop <= 1)) {
+    reject("the relative drop asked of a tear is " + std::to_string(options.relative_drop) +
+           "; use a share between 0 and 1 such as 0.1");
+  }
+  if (!(options.price >= 0) || !std::isfinite(options.price)) {
+    reject("the price of a tear's numbers is " + std::to_string(options.price) +
+           "; use a number from 0 up such as 6");
+  }
+}
+
+std::vector<char> judge_tears(const QuadMesh& mesh, const std::vector<std::vector<int>>& chains,
+                              const Raster& picture, const FitOptions& fit,
+                              const TearOptions& options, const RunContext& context) {
+  check_options(options);
+  check(mesh, chains);
+  const bool strong = options.mode == TearOptions::Mode::strong;
+  std::vector<char> is_torn(chains.size(), strong);
+  if (options.mode != TearOptions::Mode::automatic || chains.empty()) return is_torn;
+  tbb::task_arena arena(arena_size(context));
+  arena.execute([&] {
+    is_torn = paying_chains(mesh, chains, picture, draft_options(fit), options, context);
+  });
   return is_torn;
 }
 

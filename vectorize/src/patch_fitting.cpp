@@ -21,12 +21,11 @@ PatchMesh curved_patches(QuadMesh mesh) {
   return patches;
 }
 
-/// Moves the vertices, from the colours of a rough fit.
+/// Moves the vertices; its first fit starts from sampled colours.
 OptimizeReport move_vertices(PatchMesh& patches, const Raster& picture, const FitOptions& fit,
                              const OptimizeOptions& optimize, StageClock& clock,
                              const RunContext& context) {
-  const FitReport rough = fit_colors(patches, picture, draft_options(fit), context);
-  clock.finish("rough colours", {{"iterations", rough.iterations}});
+  fit_colors(patches, picture, {.method = FitMethod::bessel}, context);
   OptimizeReport report = optimize_vertices(patches, picture, optimize, fit, context);
   clock.finish("vertices", {{"rounds", report.rounds.size()}, {"accepted", report.accepted}});
   return report;

@@ -50,13 +50,14 @@ struct OptimizeReport {
 ///
 /// Connectivity, tears and the region that the mesh covers stay: border vertices slide along
 /// straight axis-parallel borders or stay; vertices inside a chain of tears slide along it, its
-/// ends and junctions stay. Tangents are set anew by set_bessel_tangents() and guard_folds();
-/// colours at last as fit_colors() does. The number of iterations does not depend on the size of
-/// the picture. The same bits for any thread count.
+/// ends and junctions stay. Tangents are set anew by set_bessel_tangents() and guard_folds().
+/// Colours minimise what fit_colors() minimises; the regularization pulls toward those of the round
+/// before, and as every fit starts there, the fit's tolerance counts as at least 1e-2. The number
+/// of iterations does not depend on the size of the picture. The same bits for any thread count.
 ///
 /// Colours that do not minimise the error (FitMethod::bessel) gain nothing from it, so for them no
 /// round is taken; neither is one where no patch contains a pixel centre. The patches come from
-/// fit_colors() with the same picture and options. Throws what that throws, and
+/// fit_colors() with the same picture and any method. Throws what that throws, and
 /// Error{invalid_argument} for options outside their ranges, and, where rounds are to be taken, for
 /// quads that are not strictly convex, whose shape energy is infinite.
 OptimizeReport optimize_vertices(PatchMesh& patches, const Raster& picture,

@@ -36,13 +36,14 @@ std::vector<std::vector<int>> feature_edge_chains(const QuadMesh& mesh);
 ///
 /// A chain is a list of edges of the mesh that follow each other along an image feature; edges on
 /// the border of the mesh are ignored. Tears that the mesh has already are given and stay. The
-/// picture is fitted with all chains torn and with none, on the same geometry, and both fits are
-/// drawn at scale 1. A chain may be torn when its squared error, over the pixels of all quads that
-/// touch it, alpha premultiplied, falls by more than the options ask for. Remaining variance: the
-/// mean squared error there with the tears, but at least that of half an 8-bit step. Added numbers:
-/// value, gradient and twist per channel of every wedge added at the chain's vertices. The error of
-/// a jump that is not torn reaches into the quads around it, so chains near a much stronger one are
-/// judged again after that one is torn: forward selection in at most four rounds.
+/// picture is fitted (FitMethod::hermite) with all chains torn and with none, on the same geometry,
+/// and both fits are compared with it at scale 1. A chain may be torn when its squared error, over
+/// the pixels of all quads that touch it, alpha premultiplied, falls by more than the options ask
+/// for. Remaining variance: the mean squared error there with the tears, but at least that of half
+/// an 8-bit step. Added numbers: value, gradient and twist per channel of every wedge added at the
+/// chain's vertices. The error of a jump that is not torn reaches into the quads around it, so
+/// chains near a much stronger one are judged again after that one is torn: forward selection in at
+/// most four rounds.
 ///
 /// Takes the time of two to five fits. The same for any thread count. Throws
 /// Error{invalid_argument} for edges that are not the mesh's or options outside their ranges, and

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "fit_system.h"
+#include "quadrille/fit.h"
+
+namespace quadrille {
+
+/// Patches with the colours that fit them to a picture, and what is then known of every pixel.
+class FittedState {
+ public:
+  /// The colours that the patches have are improved upon. Runs in the caller's tbb arena.
+  FittedState(PatchMesh start, const Raster& picture, const FitOptions& fit,
+              const RunContext& context);
+
+  PatchMesh patches;
+  std::vector<SampleBlock> samples;
+  ColorSystem colors;
+  /// Halfway between the picture and what the patches show, premultiplied; the picture where no
+  /// patch lies.
+  Raster mean;
+  FitReport fit;
+  double squared_error = 0, roughness = 0;
+
+  /// The share of pixel y * width + x in the squared error, 0 where no patch lies.
+  float squared_error_at(const Raster& picture, std::size_t pixel) const;
+
+  /// Goes on from the colours found so far; the mean and the errors stay behind.
+  void improve(const FitOptions& options, const RunContext& context);
+
+ private:
+  ColorSystem::Vector solve(const FitOptions& options, const RunContext& context);
+  void show(const Raster& picture, const ColorSystem::Vector& correction);
+  double show_patch(const SampleBlock& block, int local);
+};
+
+}  // namespace quadrille
