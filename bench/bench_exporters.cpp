@@ -74,6 +74,9 @@ bool run(Options& options) {
       good = false;
     } else {
       rows.push_back({picture.stem().string(), std::move(figures)});
+      // A run takes long: what there is so far can be looked at.
+      good &= write_json(as_json(rows), options.json_file);
+      fmt::print(stderr, "{}\n", picture.string());
     }
   }
   if (rows.empty()) return false;
@@ -81,7 +84,7 @@ bool run(Options& options) {
       fmt::format("{} pictures, {} quads wished", rows.size(), options.run.quads);
   print_outputs(of, options.run, rows);
   print_programs(of, options.run, rows);
-  return write_json(as_json(rows), options.json_file) && good;
+  return good;
 }
 
 }  // namespace

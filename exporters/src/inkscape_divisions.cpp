@@ -9,7 +9,7 @@
 namespace quadrille {
 namespace {
 
-constexpr int kMostBilinear = 8, kMostBicubic = 4;
+constexpr int kMostBilinear = 8, kMostBicubic = 2;
 
 GridDivisions bilinear(const PlacedGrid& grid, double tolerance) {
   GridDivisions result{std::vector<int>(grid.columns(), 1), std::vector<int>(grid.rows(), 1)};

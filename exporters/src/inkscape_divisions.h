@@ -20,7 +20,7 @@ struct GridLine {
 /// The lines before, between and after the parts.
 std::vector<GridLine> lines_of(const std::vector<int>& divisions);
 
-/// About the fewest parts, at most 8, with which Inkscape's interpolation of the colours at the
+/// About the fewest parts, at most 8 (2 of bicubic ones), with which Inkscape's interpolation of the colours at the
 /// crossings of lines stays near the patches' colours: within half of `tolerance`, in 8-bit steps,
 /// in the root mean square. For bilinear ones also within twice of it anywhere.
 GridDivisions divisions_of(const PlacedGrid& grid, bool bicubic, double tolerance);
