@@ -16,6 +16,7 @@ struct MeshNode {
   Vector2d position;
   int column, row;
   Vector2d uv;
+  Vector2d beyond = Vector2d::Zero();  ///< how far the node lies outside the grid, in parameters
 };
 
 class MeshBuilder {
@@ -47,9 +48,8 @@ class MeshBuilder {
     mesh.columns = columns_;
     mesh.rows = rows_;
     for (const MeshNode& node : nodes_) {
-      const Color color = grid_.color(node.column, node.row).at(node.uv.x(), node.uv.y());
       mesh.nodes.push_back(node.position);
-      mesh.colors.push_back(color.cwiseMax(0.0f).cwiseMin(1.0f));
+      mesh.colors.push_back(color_of(node));
     }
     mesh.across = std::move(across_);
     mesh.down = std::move(down_);
@@ -81,6 +81,19 @@ class MeshBuilder {
                      {left.at, top.at, end(left, right), end(top, bottom)});
   }
 
+  /// Beyond the grid the colour goes on as the patch's polynomial, but changes no more than it does
+  /// as far inside.
+  Color color_of(const MeshNode& node) const {
+    const auto shown_at = [&](const Vector2d& uv) -> Color {
+      const Color color = grid_.color(node.column, node.row).at(uv.x(), uv.y());
+      return color.cwiseMax(0.0f).cwiseMin(1.0f);
+    };
+    const Color on_grid = shown_at(node.uv);
+    const Color bound = (shown_at(node.uv - node.beyond) - on_grid).abs();
+    const Color change = shown_at(node.uv + node.beyond) - on_grid;
+    return on_grid + change.cwiseMax(-bound).cwiseMin(bound);
+  }
+
   /// Prolongs the patches of the first row, or adds a row where they are short: their colours could
   /// not go on far enough.
   void extend_top(double bleed) {
@@ -95,7 +108,7 @@ class MeshBuilder {
       MeshNode& node = nodes_[i];
       const PlaneCurve& side = is_long ? first : down_[columns_ + 1 + i];
       const double by = std::min(0.5, bleed / std::max(3 * (side[1] - side[0]).norm(), 1e-9));
-      node.uv += by * part_length(node) * outward();
+      node.beyond += by * part_length(node) * outward();
       if (is_long && by < 0.5) {
         first = sub_curve(first, -by, 1);
       } else {
