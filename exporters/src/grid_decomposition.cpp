@@ -26,12 +26,14 @@ class GridCutter {
   GridCutter(const QuadMesh& mesh, std::span<const unsigned char> kinds)
       : mesh_(mesh), kinds_(kinds.begin(), kinds.end()), visited_(mesh.quad_count(), 0) {}
 
-  /// Sizes only shrink as quads are cut out, so a candidate that is still as large as it was when
-  /// it is the largest of all is the largest now.
+  /// Sizes only shrink as quads are cut out. So each candidate starts with the most there may be,
+  /// and one that turns out to be as large as was thought when it is the first of all is the
+  /// largest now.
   std::vector<QuadGrid> cut() {
     std::priority_queue<Candidate> candidates;
     for (int h = 0; h < mesh_.halfedge_count(); ++h) {
-      if (kinds_[QuadMesh::quad_of(h)]) candidates.push(largest_from(h));
+      if (!kinds_[QuadMesh::quad_of(h)]) continue;
+      candidates.push({QuadGrid::kMostPerSide, QuadGrid::kMostPerSide, h});
     }
     std::vector<QuadGrid> grids;
     while (!candidates.empty()) {

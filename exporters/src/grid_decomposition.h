@@ -29,8 +29,8 @@ int below(const QuadMesh& mesh, int h);
 /// quads along a side), the largest of what remains, and so on; of equally large ones the squarer,
 /// then the one with the lowest half-edge in its corner. `kinds` has a number per quad: quads of
 /// different kinds never share a grid, and those of kind 0 are left out. No grid has a tear, a
-/// border or an irregular vertex inside it. Takes O(#Q) evaluations of at most kMostPerSide^2 quads
-/// for every quad of a grid.
+/// border or an irregular vertex inside it. A corner is looked at about
+/// once, in at most kMostPerSide^2 steps.
 std::vector<QuadGrid> regular_grids(const QuadMesh& mesh, std::span<const unsigned char> kinds);
 
 }  // namespace quadrille
