@@ -9,20 +9,8 @@
 namespace quadrille {
 namespace {
 
-constexpr int kMostBilinear = 8, kMostBicubic = 2;
-
-GridDivisions bilinear(const PlacedGrid& grid, double tolerance) {
-  GridDivisions result{std::vector<int>(grid.columns(), 1), std::vector<int>(grid.rows(), 1)};
-  for (int j = 0; j < grid.rows(); ++j) {
-    for (int i = 0; i < grid.columns(); ++i) {
-      const Divisions wished =
-          bilinear_divisions(grid.color(i, j), tolerance / 255, {kMostBilinear, kMostBilinear});
-      result.columns[i] = std::max(result.columns[i], wished.u);
-      result.rows[j] = std::max(result.rows[j], wished.v);
-    }
-  }
-  return result;
-}
+/// Most parts of a column or row of quads.
+constexpr int kMostDivisions = 4;
 
 /// A grid as seen along its rows (or columns), with the lines that cross these.
 struct View {
@@ -39,61 +27,31 @@ struct View {
   }
 };
 
-/// Mean squared errors per column (row) of quads of interpolating smoothly along a line of the
-/// grid.
-class LineErrors {
- public:
-  explicit LineErrors(std::size_t quads) : sums_(quads, 0), counts_(quads, 0) {}
-
-  void add(const View& view, const std::vector<GridLine>& nodes, const GridLine& line) {
+/// Mean squared error, over red, green and blue, of interpolating smoothly along the lines.
+double mean_squared_error(const View& view, const std::vector<GridLine>& nodes,
+                          const std::vector<GridLine>& lines) {
+  double sum = 0;
+  int count = 0;
+  for (const GridLine& line : lines) {
     NodeLine values;
-    for (const GridLine& node : nodes)
+    for (const GridLine& node : nodes) {
       values.add(view.position(node, line), view.color(node, line));
+    }
     const std::vector<Color> slopes = values.slopes();
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      const double end = nodes[i + 1].quad > nodes[i].quad ? 1 : nodes[i + 1].at;
       for (const double t : {0.25, 0.5, 0.75}) {
-        const GridLine between{nodes[i].quad, nodes[i].at + t * (end - nodes[i].at)};
-        const Color truth = view.color(between, line).cwiseMax(0.0f).cwiseMin(1.0f);
-        const Color error = truth - values.between(i, t, slopes);
-        sums_[between.quad] += error.head<3>().square().mean();
-        ++counts_[between.quad];
+        const Color truth = view.color({nodes[i].quad, t}, line);
+        const Color error = truth.cwiseMax(0.0f).cwiseMin(1.0f) - values.between(i, t, slopes);
+        sum += error.head<3>().square().mean();
+        ++count;
       }
     }
   }
-
-  double mean_squared(int quad) const { return sums_[quad] / counts_[quad]; }
-
- private:
-  std::vector<double> sums_;
-  std::vector<int> counts_;
-};
-
-/// Doubles the parts of the columns (rows) along which the error is too large; true when any was.
-bool refine(const View& view, std::vector<int>& divisions, const std::vector<GridLine>& across,
-            double tolerance) {
-  LineErrors errors(divisions.size());
-  const std::vector<GridLine> nodes = lines_of(divisions);
-  for (const GridLine& line : across) errors.add(view, nodes, line);
-  bool refined = false;
-  for (std::size_t q = 0; q < divisions.size(); ++q) {
-    const double error = 255 * std::sqrt(errors.mean_squared(static_cast<int>(q)));
-    if (error <= 0.5 * tolerance || divisions[q] == kMostBicubic) continue;
-    divisions[q] *= 2;
-    refined = true;
-  }
-  return refined;
+  return sum / count;
 }
 
-GridDivisions smooth(const PlacedGrid& grid, double tolerance) {
-  GridDivisions result{std::vector<int>(grid.columns(), 1), std::vector<int>(grid.rows(), 1)};
-  for (bool again = true; again;) {
-    const std::vector<GridLine> columns = lines_of(result.columns), rows = lines_of(result.rows);
-    const bool more_columns = refine({grid, true}, result.columns, rows, tolerance);
-    const bool more_rows = refine({grid, false}, result.rows, columns, tolerance);
-    again = more_columns || more_rows;
-  }
-  return result;
+GridDivisions undivided(const PlacedGrid& grid) {
+  return {std::vector<int>(grid.columns(), 1), std::vector<int>(grid.rows(), 1)};
 }
 
 }  // namespace
@@ -107,8 +65,28 @@ std::vector<GridLine> lines_of(const std::vector<int>& divisions) {
   return lines;
 }
 
+bool is_faithful_bicubic(const PlacedGrid& grid, double tolerance) {
+  if (grid.columns() < 2 || grid.rows() < 2) return false;
+  const std::vector<GridLine> columns = lines_of(undivided(grid).columns);
+  const std::vector<GridLine> rows = lines_of(undivided(grid).rows);
+  // The errors of the two directions are about independent.
+  const double squared = mean_squared_error({grid, true}, columns, rows) +
+                         mean_squared_error({grid, false}, rows, columns);
+  return 255 * std::sqrt(squared) <= 0.5 * tolerance;
+}
+
 GridDivisions divisions_of(const PlacedGrid& grid, bool bicubic, double tolerance) {
-  return bicubic ? smooth(grid, tolerance) : bilinear(grid, tolerance);
+  GridDivisions result = undivided(grid);
+  if (bicubic) return result;
+  for (int j = 0; j < grid.rows(); ++j) {
+    for (int i = 0; i < grid.columns(); ++i) {
+      const Divisions wished =
+          bilinear_divisions(grid.color(i, j), tolerance / 255, {kMostDivisions, kMostDivisions});
+      result.columns[i] = std::max(result.columns[i], wished.u);
+      result.rows[j] = std::max(result.rows[j], wished.v);
+    }
+  }
+  return result;
 }
 
 }  // namespace quadrille

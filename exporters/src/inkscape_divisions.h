@@ -20,9 +20,13 @@ struct GridLine {
 /// The lines before, between and after the parts.
 std::vector<GridLine> lines_of(const std::vector<int>& divisions);
 
-/// About the fewest parts, at most 8 (2 of bicubic ones), with which Inkscape's interpolation of the colours at the
-/// crossings of lines stays near the patches' colours: within half of `tolerance`, in 8-bit steps,
-/// in the root mean square. For bilinear ones also within twice of it anywhere.
+/// True when Inkscape's smooth interpolation between the corners of the grid's quads is within half
+/// of `tolerance` of the patches' colours, in 8-bit steps, in the root mean square. Never of a
+/// single column or row, whose slopes it takes wrongly.
+bool is_faithful_bicubic(const PlacedGrid& grid, double tolerance);
+
+/// One part each where the interpolation is `bicubic`; otherwise about the fewest, at most 4, with
+/// which the bilinear one is within the tolerance, see bilinear_divisions().
 GridDivisions divisions_of(const PlacedGrid& grid, bool bicubic, double tolerance);
 
 }  // namespace quadrille

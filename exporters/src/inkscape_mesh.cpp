@@ -184,7 +184,7 @@ class MeshBuilder {
 }  // namespace
 
 InkscapeMesh inkscape_mesh(const PlacedGrid& grid, double bleed, double tolerance) {
-  const bool bicubic = grid.columns() >= 2 && grid.rows() >= 2;
+  const bool bicubic = is_faithful_bicubic(grid, tolerance);
   const GridDivisions divisions = divisions_of(grid, bicubic, tolerance);
   InkscapeMesh mesh = MeshBuilder(grid, divisions).build(bleed);
   mesh.bicubic = bicubic;

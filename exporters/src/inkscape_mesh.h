@@ -24,11 +24,11 @@ struct InkscapeMesh {
   int side_down(int column, int row) const { return row * (columns + 1) + column; }
 };
 
-/// The mesh gradient of the grid. It reaches `bleed` pixels beyond the grid on all sides, where
-/// geometry and colours go on as inside: drawn without anti-aliasing, it is to be cut out by a
-/// path. A grid of two or more columns and rows is bicubic; others, for which Inkscape's slopes are
-/// wrong, are bilinear. Columns and rows of quads are divided as divisions_of() says for
-/// `tolerance`.
+/// The mesh gradient of the grid: bicubic with a patch per quad where is_faithful_bicubic() says so
+/// for the tolerance, bilinear with columns and rows divided by divisions_of() elsewhere. It
+/// reaches `bleed` pixels beyond the grid on all sides, where geometry and colours go on as inside:
+/// drawn without anti-aliasing, it is to be cut out by a path. For that the outermost patches are
+/// prolonged, or a row is added where one of them is short.
 InkscapeMesh inkscape_mesh(const PlacedGrid& grid, double bleed, double tolerance);
 
 }  // namespace quadrille

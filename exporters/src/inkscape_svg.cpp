@@ -17,8 +17,8 @@ using Eigen::Vector2d;
 /// How far an outline goes on under what is painted later, and a mesh beyond the outline, whose
 /// pixels it must fill, in pixels.
 constexpr double kOutlineBleed = 1, kMeshBleed = 1.5;
-/// Colour error along the lines of a grid in 8-bit steps, see divisions_of().
-constexpr double kTolerance = 8;
+/// Colour error in 8-bit steps, see is_faithful_bicubic() and divisions_of().
+constexpr double kTolerance = 12;
 
 std::string text_of(const Vector2d& p) {
   constexpr int kDecimals = 3;
