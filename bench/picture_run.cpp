@@ -2,14 +2,12 @@
 
 #include <fmt/core.h>
 #include <sys/resource.h>
-#include <zlib.h>
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
+#include "gzip_size.h"
 #include "own_process.h"
 #include "quadrille/export.h"
 #include "quadrille/image_file.h"
@@ -34,18 +32,6 @@ Json quality(const VectorImage& image, const Raster& picture, const RunContext& 
           {"mae", difference.mae},
           {"psnr", difference.psnr},
           {"ssim", difference.ssim}};
-}
-
-/// The size after gzip at its best level.
-std::size_t gzip_size(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  uLongf size = compressBound(bytes.size());
-  std::string packed(size, '\0');
-  compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-            reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
-  constexpr std::size_t kLongerGzipFrame = 12;  // than zlib's
-  return size + kLongerGzipFrame;
 }
 
 Json file_sizes(const VectorImage& image, const RunContext& context) {

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
 
 #include "quadrille/preset.h"
 
@@ -131,6 +132,18 @@ void declare_document_options(CLI::App& parser, DocumentOptions& options) {
   parser.add_flag_callback(
       "--lossless", [&] { options.encoding = DocumentEncoding::lossless; },
       "write .quad documents bit for bit, some 15 times larger");
+}
+
+void declare_svg_options(CLI::App& parser, SvgOptions& options) {
+  static const std::map<std::string, SvgLevel> kLevels = {{"balanced", SvgLevel::balanced},
+                                                          {"inkscape", SvgLevel::inkscape}};
+  parser
+      .add_option_function<std::string>(
+          "--svg-level", [&](const std::string& name) { options.level = kLevels.at(name); },
+          "what .svg files are made of: balanced (gradients that every program draws) or inkscape "
+          "(mesh gradients to edit in Inkscape; other programs show flat colours)")
+      ->check(CLI::IsMember({"balanced", "inkscape"}))
+      ->default_str("balanced");
 }
 
 CLI::Validator positive_number() {

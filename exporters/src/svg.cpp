@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "arena_size.h"
+#include "inkscape_svg.h"
 #include "quadrille/atomic_file.h"
 #include "quadrille/error.h"
 #include "quadrille/export.h"
@@ -117,8 +118,13 @@ void write_svg(const VectorImage& image, const std::filesystem::path& path,
     throw Error(ErrorCode::invalid_argument, "the SVG tolerance is " + to_text(options.tolerance) +
                                                  "; choose one above 0, such as 4");
   }
-  write_stream_atomically(
-      path, [&](std::ostream& file) { SvgWriter(image, options, context, file).write(); });
+  write_stream_atomically(path, [&](std::ostream& file) {
+    if (options.level == SvgLevel::inkscape) {
+      write_inkscape_svg(file, image, options.title, context);
+    } else {
+      SvgWriter(image, options, context, file).write();
+    }
+  });
 }
 
 }  // namespace quadrille

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "finite_image.h"
-#include "irregular_mesh.h"
 #include "quadrille/document.h"
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
+#include "support/irregular_mesh.h"
 #include "support/random_patches.h"
 
 namespace quadrille {

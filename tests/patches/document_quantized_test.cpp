@@ -5,11 +5,11 @@
 #include "document_container.h"
 #include "document_metric.h"
 #include "finite_image.h"
-#include "irregular_mesh.h"
 #include "quadrille/document.h"
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
 #include "quadrille/render.h"
+#include "support/irregular_mesh.h"
 #include "support/random_patches.h"
 
 namespace quadrille {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "quadrille/tears.h"
-#include "torn_meshes.h"
+#include "support/torn_meshes.h"
 
 namespace quadrille {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "irregular_mesh.h"
 #include "quadrille/patch_geometry.h"
-#include "torn_meshes.h"
+#include "support/irregular_mesh.h"
+#include "support/torn_meshes.h"
 
 namespace quadrille {
 namespace {

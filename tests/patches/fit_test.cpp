@@ -7,11 +7,11 @@
 #include <cstring>
 
 #include "exactly_opaque.h"
-#include "irregular_mesh.h"
 #include "paint.h"
 #include "patch_scan.h"
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
+#include "support/irregular_mesh.h"
 #include "support/random_patches.h"
 
 namespace quadrille {

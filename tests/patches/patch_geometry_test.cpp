@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "irregular_mesh.h"
+#include "support/irregular_mesh.h"
 #include "support/random_patches.h"
 
 namespace quadrille {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "irregular_mesh.h"
+#include "support/irregular_mesh.h"
 #include "support/random_patches.h"
 
 namespace quadrille {

@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "irregular_mesh.h"
 #include "quadrille/error.h"
+#include "support/irregular_mesh.h"
 
 namespace quadrille {
 namespace {

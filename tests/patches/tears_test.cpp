@@ -6,7 +6,7 @@
 
 #include "quadrille/error.h"
 #include "support/random_patches.h"
-#include "torn_meshes.h"
+#include "support/torn_meshes.h"
 
 namespace quadrille {
 namespace {

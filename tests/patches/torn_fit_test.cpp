@@ -8,7 +8,7 @@
 #include "quadrille/patch_geometry.h"
 #include "quadrille/render.h"
 #include "support/random_patches.h"
-#include "torn_meshes.h"
+#include "support/torn_meshes.h"
 
 namespace quadrille {
 namespace {

@@ -20,7 +20,13 @@ struct RasterFileOptions {
   std::array<float, 3> background = {1, 1, 1};
 };
 
+enum class SvgLevel {
+  balanced,  ///< gradients that every program draws
+  inkscape,  ///< mesh gradients that Inkscape draws and edits; others show flat colours
+};
+
 struct SvgOptions {
+  SvgLevel level = SvgLevel::balanced;
   /// Colour error of a cell in 8-bit steps, at most half of it in the root mean square and at most
   /// twice of it anywhere: 8 compact, 4 balanced, 2 faithful.
   double tolerance = 4;

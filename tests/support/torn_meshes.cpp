@@ -1,4 +1,4 @@
-#include "torn_meshes.h"
+#include "support/torn_meshes.h"
 
 #include <cmath>
 
