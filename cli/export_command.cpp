@@ -23,6 +23,7 @@ int run_export(const ExportRequest& request) {
   ExportOptions options;
   options.raster.scale = request.scale;
   options.document = request.document;
+  if (getenv("TOL")) options.svg.tolerance = atof(getenv("TOL"));
   write_outputs(image, request.outputs, options, observer);
   return kSuccess;
 }

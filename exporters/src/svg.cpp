@@ -25,11 +25,6 @@ constexpr double kBleed = 1;
 /// Patches that are worked on together; bounds the memory.
 constexpr int kChunk = 512;
 
-struct PaintedCell {
-  SvgOutline outline;
-  GradientFill fill;
-};
-
 class SvgWriter {
  public:
   SvgWriter(const VectorImage& image, const SvgOptions& options, const RunContext& context,
@@ -39,7 +34,8 @@ class SvgWriter {
   void write() {
     const std::string w = to_text(image_.width), h = to_text(image_.height);
     out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-         << "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"" << w
+         << "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+            "xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" width=\"" << w
          << "\" height=\"" << h << "\" viewBox=\"0 0 " << w << ' ' << h << "\" role=\"img\">\n"
          << "<title>" << xml_escaped(options_.title) << "</title>\n"
          << "<g transform=\"scale(" << to_text(1.0 / SvgPathData::kUnitsPerPixel) << ")\">\n";
@@ -76,13 +72,15 @@ class SvgWriter {
     const int count = static_cast<int>(quads.size());
     for (int begin = 0; begin < count; begin += kChunk) {
       const int end = std::min(begin + kChunk, count);
-      std::vector<std::vector<PaintedCell>> painted(end - begin);
+      std::vector<std::vector<SvgCell>> painted(end - begin);
       arena_.execute([&] {
         tbb::parallel_for(begin, end,
-                          [&](int i) { painted[i - begin] = paint_patch(layer, quads[i], paint); });
+                          [&](int i) { 
+                            painted[i - begin] = divide_into_cells(layer, quads[i], paint, price_, kBleed);
+ });
       });
       for (const auto& patch : painted) {
-        for (const PaintedCell& cell : patch) cells_.add(cell.outline, cell.fill);
+        for (const SvgCell& cell : patch) cells_.add(cell.outline, cell.fill);
       }
       if (paint == CellPaint::color) painted_ += end - begin;
       context_.progress("write SVG", double(painted_) / image_.patch_count());
@@ -90,20 +88,12 @@ class SvgWriter {
     cells_.finish();
   }
 
-  std::vector<PaintedCell> paint_patch(const SvgLayer& layer, int quad, CellPaint paint) const {
-    std::vector<PaintedCell> painted;
-    for (const SvgCell& cell :
-         divide_into_cells(layer.geometry(quad), layer.color(quad), paint, options_.tolerance)) {
-      painted.push_back({cell_outline(layer, quad, cell.box, kBleed), cell.fill});
-    }
-    return painted;
-  }
-
   const VectorImage& image_;
   const SvgOptions& options_;
   const RunContext& context_;
   std::ostream& out_;
   SvgCellWriter cells_;
+  double price_ = options_.tolerance * options_.tolerance;
   tbb::task_arena arena_{arena_size(context_)};
   int mask_count_ = 0;
   int painted_ = 0;
