@@ -15,6 +15,7 @@
 #include "svg_layer.h"
 #include "svg_outline.h"
 #include "svg_text.h"
+#include "svg_underlay.h"
 
 namespace quadrille {
 namespace {
@@ -45,11 +46,12 @@ class SvgWriter {
 
  private:
   void write_layer(const Layer& source) {
-    const SvgLayer layer(source, 0.5 * options_.tolerance / 255);
+    const SvgLayer layer(source, 2.0 / 255);
     const std::vector<int> translucent = layer.quads(PatchOpacity::translucent);
     const std::vector<int> opaque = layer.quads(PatchOpacity::opaque);
     out_ << "<g>\n";
     if (!translucent.empty()) write_masked(layer, translucent);
+    write_underlay(layer);
     write_cells(layer, opaque, CellPaint::color);
     out_ << "</g>\n";
   }
@@ -66,6 +68,15 @@ class SvgWriter {
     out_ << "</mask>\n<g mask=\"url(#" << id << ")\">\n";
     write_cells(layer, quads, CellPaint::color);
     out_ << "</g>\n";
+  }
+
+  void write_underlay(const SvgLayer& layer) {
+    for (const UnderlayGroup& group : underlay_groups(layer, image_.width, image_.height)) {
+      CellFill fill;
+      fill.base.stops[0] = rounded_color(group.color);
+      for (const SvgOutline& outline : group.outlines) cells_.add(outline, fill);
+      cells_.finish();
+    }
   }
 
   void write_cells(const SvgLayer& layer, const std::vector<int>& quads, CellPaint paint) {

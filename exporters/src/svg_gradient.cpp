@@ -29,21 +29,13 @@ double gradient_bytes(int stops) { return kGradientBytes + kStopBytes * stops; }
 /// Colours of the stops, one per row.
 using Stops = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, LinearGradient::kMaxStops, 3>;
 
-LinearGradient::Rgb rounded(const Array3d& color) {
-  LinearGradient::Rgb rgb;
-  for (int k = 0; k < 3; ++k) {
-    rgb[k] = static_cast<std::uint8_t>(std::lround(std::clamp(color[k], 0.0, 255.0)));
-  }
-  return rgb;
-}
-
 LinearGradient gradient_of(const RidgeAxis& axis, int direction, const Stops& stops) {
   LinearGradient gradient{.direction = direction,
                           .first = axis.first,
                           .last = axis.last,
                           .stop_count = static_cast<int>(stops.rows())};
   for (int k = 0; k < gradient.stop_count; ++k) {
-    gradient.stops[k] = rounded(stops.row(k).transpose().array());
+    gradient.stops[k] = rounded_color(stops.row(k).transpose().array());
   }
   return gradient;
 }
@@ -79,7 +71,7 @@ class CellFitter {
  private:
   CellFit flat() const {
     CellFit fit;
-    fit.fill.base.stops[0] = rounded(mean_);
+    fit.fill.base.stops[0] = rounded_color(mean_);
     fit.bytes = kFlatBytes;
     measure(fit);
     return fit;
@@ -215,6 +207,14 @@ class CellFitter {
 };
 
 }  // namespace
+
+LinearGradient::Rgb rounded_color(const Array3d& color) {
+  LinearGradient::Rgb rgb;
+  for (int k = 0; k < 3; ++k) {
+    rgb[k] = static_cast<std::uint8_t>(std::lround(std::clamp(color[k], 0.0, 255.0)));
+  }
+  return rgb;
+}
 
 CellFit fit_cell(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double price,
                  double again) {

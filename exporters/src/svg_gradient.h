@@ -21,6 +21,9 @@ struct LinearGradient {
   std::array<Rgb, kMaxStops> stops{};
 };
 
+/// The nearest 8-bit colour to one of 0 to 255.
+LinearGradient::Rgb rounded_color(const Eigen::Array3d& color);
+
 /// What fills a cell: a gradient, and over it perhaps a second one in another direction that lets
 /// the first one through. Both together show any sum of a function along the one direction and a
 /// function along the other: colours whose channels change in different directions, which one

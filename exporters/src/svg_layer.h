@@ -22,6 +22,7 @@ class SvgLayer {
   bool is_painted_later(int h) const;
   /// True when `other` is painted after `quad`.
   bool is_painted_later(int quad, int other) const;
+  bool is_opaque(int quad) const { return opacity_[quad] == PatchOpacity::opaque; }
   /// Quads of this opacity in painting order.
   std::vector<int> quads(PatchOpacity opacity) const { return patches_with(opacity_, opacity); }
 

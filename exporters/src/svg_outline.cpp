@@ -12,9 +12,12 @@ using Geometry = BicubicHermite<Vector2d>;
 
 /// Farthest that a straight line may be from the curve it stands for, in pixels: along the outline
 /// of the mesh and tears, along seams of smooth colour, and where later cells hide it.
-constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.25, kHiddenFlatness = 0.5;
+constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.25, kHiddenFlatness = 0.25;
+/// The bleed ends at this part of the width of a patch at the latest: beyond it may lie something that
+/// is painted earlier.
+constexpr double kDeepestBleed = 0.5;
 /// Points of an outline nearer than this to the line past them are left out, in pixels.
-constexpr double kStraightness = 0.05;
+constexpr double kStraightness = 0.1;
 
 /// Parameters of the point at `s` along side k of the patch, `depth` inside of it.
 Vector2d on_side(int k, double s, double depth) {
@@ -33,12 +36,12 @@ Vector2d on_side(int k, double s, double depth) {
 Vector2d at(const Geometry& g, const Vector2d& uv) { return g.at(uv.x(), uv.y()); }
 
 /// How far the parameter may run from uv, across lines of constant u (or v), to cover `distance`
-/// pixels; at most 1.
+/// pixels; at most kDeepestBleed.
 double parameter_step(const Geometry& g, const Vector2d& uv, bool along_u, double distance) {
   const Vector2d du = g.derivative_u(uv.x(), uv.y()), dv = g.derivative_v(uv.x(), uv.y());
   const double area = std::abs(du.x() * dv.y() - du.y() * dv.x());
   const double other = along_u ? dv.norm() : du.norm();
-  return area > distance * other ? distance * other / area : 1;
+  return area * kDeepestBleed > distance * other ? distance * other / area : kDeepestBleed;
 }
 
 /// The point `distance` pixels inside side k at `s`.

@@ -10,7 +10,7 @@ namespace quadrille {
 /// Path data of outlines with coordinates as integers, in units of 1 / kUnitsPerPixel pixel.
 class SvgPathData {
  public:
-  static constexpr int kUnitsPerPixel = 10;
+  static constexpr int kUnitsPerPixel = 4;
 
   /// Appends one closed subpath.
   void append(const SvgOutline& outline);
