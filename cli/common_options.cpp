@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
 
 #include "quadrille/preset.h"
 
@@ -131,6 +132,29 @@ void declare_document_options(CLI::App& parser, DocumentOptions& options) {
   parser.add_flag_callback(
       "--lossless", [&] { options.encoding = DocumentEncoding::lossless; },
       "write .quad documents bit for bit, some 15 times larger");
+}
+
+void declare_svg_options(CLI::App& parser, SvgOptions& options) {
+  static const std::map<std::string, SvgLevel> kLevels = {{"compact", SvgLevel::compact},
+                                                          {"balanced", SvgLevel::balanced},
+                                                          {"faithful", SvgLevel::faithful}};
+  parser
+      .add_option_function<std::string>(
+          "--svg-level", [&](const std::string& name) { options.level = kLevels.at(name); },
+          "how closely .svg files show the picture, at the price of their size: compact, balanced "
+          "or faithful")
+      ->check(CLI::IsMember({"compact", "balanced", "faithful"}))
+      ->default_str("balanced");
+  parser
+      .add_option_function<double>(
+          "--svg-size-limit",
+          [&](double kilobytes) {
+            options.size_limit = static_cast<std::uint64_t>(std::llround(1000 * kilobytes));
+          },
+          "most size of .svg and .svgz files in KB (1000 bytes) as written; searches the colour "
+          "tolerance that fits")
+      ->check(CLI::Range(1.0, 1e9))
+      ->type_name("KB");
 }
 
 CLI::Validator positive_number() {

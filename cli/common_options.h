@@ -8,6 +8,7 @@
 
 #include "observer.h"
 #include "quadrille/document.h"
+#include "quadrille/export.h"
 #include "quadrille/vectorize.h"
 
 namespace quadrille::cli {
@@ -50,6 +51,9 @@ void declare_output(CLI::App& parser, std::filesystem::path& output);
 
 /// --lossless, for `.quad` outputs.
 void declare_document_options(CLI::App& parser, DocumentOptions& options);
+
+/// --svg-level and --svg-size-limit.
+void declare_svg_options(CLI::App& parser, SvgOptions& options);
 
 /// Accepts finite numbers above 0.
 CLI::Validator positive_number();

@@ -13,6 +13,7 @@ struct ExportRequest {
   std::vector<std::filesystem::path> outputs;
   double scale = 1;
   DocumentOptions document;
+  SvgOptions svg;
   RunOptions run;
 };
 
@@ -23,7 +24,7 @@ int run_export(const ExportRequest& request) {
   ExportOptions options;
   options.raster.scale = request.scale;
   options.document = request.document;
-  if (getenv("TOL")) options.svg.tolerance = atof(getenv("TOL"));
+  options.svg = request.svg;
   write_outputs(image, request.outputs, options, observer);
   return kSuccess;
 }
@@ -38,6 +39,7 @@ Action declare_export(CLI::App& parser) {
       ->check(positive_number())
       ->capture_default_str();
   declare_document_options(parser, request->document);
+  declare_svg_options(parser, request->svg);
   declare_run_options(parser, request->run);
   return [request] { return run_export(*request); };
 }

@@ -58,7 +58,7 @@ void SvgCellWriter::add(const SvgOutline& outline, const CellFill& fill) {
     return;
   }
   finish();
-  SvgPathData path;
+  SvgPathData path(units_);
   path.append(outline);
   const std::string base = gradient_id(fill.base);
   const bool layered = fill.overlay_opacity > 0;
@@ -73,7 +73,7 @@ void SvgCellWriter::finish() {
   if (flat_color_.empty()) return;
   out_ << "<path fill=\"" << flat_color_ << "\" d=\"" << flat_path_.text() << "\"/>\n";
   flat_color_.clear();
-  flat_path_ = {};
+  flat_path_ = SvgPathData(units_);
 }
 
 std::string SvgCellWriter::gradient_id(const LinearGradient& gradient) {

@@ -20,13 +20,15 @@ constexpr double kLeastCellBytes = 30;
 
 class PatchDivider {
  public:
-  PatchDivider(const SvgLayer& layer, int quad, CellPaint paint, double price, double bleed)
+  PatchDivider(const SvgLayer& layer, int quad, CellPaint paint, const SvgDetail& detail,
+               double bleed)
       : layer_(layer),
         quad_(quad),
         position_(layer.geometry(quad)),
         color_(layer.color(quad)),
         paint_(paint),
-        price_(price),
+        price_(detail.price),
+        units_(detail.units_per_pixel),
         bleed_(bleed) {}
 
   std::vector<SvgCell> run() {
@@ -81,7 +83,7 @@ class PatchDivider {
   Candidate candidate(const ParameterBox& box) const {
     Candidate found;
     found.cell.outline = cell_outline(layer_, quad_, box, bleed_);
-    SvgPathData path;
+    SvgPathData path(units_);
     path.append(found.cell.outline);
     const double bytes = kPathBytes + kPathDataBytes * double(path.text().size());
     const CellFit fit = fit_cell(samples(box), path.bounds(), price_, kRepeatedPathBytes);
@@ -140,14 +142,16 @@ class PatchDivider {
   BicubicHermite<Eigen::Vector2d> position_;
   BicubicHermite<Color> color_;
   CellPaint paint_;
-  double price_, bleed_;
+  double price_;
+  int units_;
+  double bleed_;
 };
 
 }  // namespace
 
 std::vector<SvgCell> divide_into_cells(const SvgLayer& layer, int quad, CellPaint paint,
-                                       double price, double bleed) {
-  return PatchDivider(layer, quad, paint, price, bleed).run();
+                                       const SvgDetail& detail, double bleed) {
+  return PatchDivider(layer, quad, paint, detail, bleed).run();
 }
 
 }  // namespace quadrille

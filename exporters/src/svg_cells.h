@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "svg_detail.h"
 #include "svg_gradient.h"
 #include "svg_layer.h"
 #include "svg_outline.h"
@@ -18,10 +19,9 @@ struct SvgCell {
 enum class CellPaint { color, alpha };
 
 /// Divides a patch into cells so that about the least squared error remains for the bytes that they
-/// take: a byte of the compressed file may cost `price` (square pixels times squared 8-bit steps,
-/// mean of the channels; colours count by their alpha). Cells come in the order in which they are
-/// to be painted; each one reaches `bleed` pixels under those that follow it.
+/// take at the price of the detail; colours count by their alpha. Cells come in the order in which
+/// they are to be painted; each one reaches `bleed` pixels under those that follow it.
 std::vector<SvgCell> divide_into_cells(const SvgLayer& layer, int quad, CellPaint paint,
-                                       double price, double bleed);
+                                       const SvgDetail& detail, double bleed);
 
 }  // namespace quadrille

@@ -167,8 +167,7 @@ class CellFitter {
       const double least = std::max(-high.minCoeff(), low.maxCoeff() - 255 * (1 - opacity));
       const double most = std::min(255 * opacity - high.maxCoeff(), low.minCoeff());
       fits = fits && least <= most + 1;
-      const double shift =
-          least <= most ? std::clamp(wished, least, most) : 0.5 * (least + most);
+      const double shift = least <= most ? std::clamp(wished, least, most) : 0.5 * (least + most);
       high.array() += shift;
       low.array() -= shift;
     }

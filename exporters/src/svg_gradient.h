@@ -7,12 +7,12 @@
 namespace quadrille {
 
 /// A linear gradient with evenly spaced stops. Directions and places are those of the unit square
-/// that the bounds of what is painted are scaled to (objectBoundingBox): a few directions and ranges
-/// then serve all cells.
+/// that the bounds of what is painted are scaled to (objectBoundingBox): a few directions and
+/// ranges then serve all cells.
 struct LinearGradient {
   static constexpr int kMaxStops = 8;
   static constexpr int kDirections = 8;  ///< direction d: (cos, sin) of pi d / 8
-  static constexpr int kPlaces = 8;      ///< places are multiples of 1 / kPlaces of the square's extent
+  static constexpr int kPlaces = 8;  ///< places are multiples of 1 / kPlaces of the square's extent
   using Rgb = std::array<std::uint8_t, 3>;
 
   int direction = 0;

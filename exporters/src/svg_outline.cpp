@@ -13,11 +13,11 @@ using Geometry = BicubicHermite<Vector2d>;
 /// Farthest that a straight line may be from the curve it stands for, in pixels: along the outline
 /// of the mesh and tears, along seams of smooth colour, and where later cells hide it.
 constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.25, kHiddenFlatness = 0.25;
-/// The bleed ends at this part of the width of a patch at the latest: beyond it may lie something that
-/// is painted earlier.
+/// The bleed ends at this part of the width of a patch at the latest: beyond it may lie something
+/// that is painted earlier.
 constexpr double kDeepestBleed = 0.5;
 /// Points of an outline nearer than this to the line past them are left out, in pixels.
-constexpr double kStraightness = 0.1;
+constexpr double kStraightness = 0.06;
 
 /// Parameters of the point at `s` along side k of the patch, `depth` inside of it.
 Vector2d on_side(int k, double s, double depth) {

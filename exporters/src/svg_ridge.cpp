@@ -28,8 +28,7 @@ RidgeSolution<Size> solved(const Eigen::Matrix<double, Size, Size>& matrix,
 
 }  // namespace
 
-RidgeAxis ridge_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds,
-                     int direction) {
+RidgeAxis ridge_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, int direction) {
   const double angle = std::numbers::pi * direction / LinearGradient::kDirections;
   const Eigen::Vector2d along = Eigen::Vector2d(std::cos(angle), std::sin(angle));
   // Places in the unit square are measured from corner to corner along the direction.
@@ -81,8 +80,8 @@ RidgeSolution<RidgeSystem::kSize> solve_ridge(const RidgeSystem& system) {
   return solved<RidgeSystem::kSize>(system.matrix, system.right, system.stops);
 }
 
-RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const CellSamples& samples,
-                                                   const RidgeSystem& a, const RidgeSystem& b) {
+RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const CellSamples& samples, const RidgeSystem& a,
+                                                   const RidgeSystem& b) {
   constexpr int kSize = 2 * RidgeSystem::kSize;
   const int m = a.stops, n = b.stops;
   Eigen::Matrix<double, kSize, kSize> matrix;

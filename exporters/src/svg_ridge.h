@@ -12,7 +12,7 @@ namespace quadrille {
 
 /// A direction of gradients as the samples see it.
 struct RidgeAxis {
-  int first = 0, last = 0;  ///< see LinearGradient
+  int first = 0, last = 0;                          ///< see LinearGradient
   std::array<double, CellSamples::kCount> place{};  ///< 0 at the first stop, 1 at the last
 };
 RidgeAxis ridge_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, int direction);
@@ -48,7 +48,7 @@ struct RidgeSolution {
 RidgeSolution<RidgeSystem::kSize> solve_ridge(const RidgeSystem& system);
 
 /// The stops of the first summand, then those of the second.
-RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const CellSamples& samples,
-                                                   const RidgeSystem& a, const RidgeSystem& b);
+RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const CellSamples& samples, const RidgeSystem& a,
+                                                   const RidgeSystem& b);
 
 }  // namespace quadrille

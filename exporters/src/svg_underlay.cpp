@@ -38,8 +38,8 @@ class Grouper {
   bool touches_outline(int q) const {
     for (int k = 0; k < 4; ++k) {
       const int h = 4 * q + k, twin = mesh_.twin(h);
-      const bool ends = twin < 0 ? !on_picture_border(h)
-                                 : !layer_.is_opaque(QuadMesh::quad_of(twin));
+      const bool ends =
+          twin < 0 ? !on_picture_border(h) : !layer_.is_opaque(QuadMesh::quad_of(twin));
       if (ends) return true;
     }
     return false;
