@@ -24,7 +24,8 @@ class SvgLayer {
   bool is_painted_later(int quad, int other) const;
   /// Number of the smooth region of a quad: quads that only tears separate are of different ones.
   int region(int quad) const { return region_[quad]; }
-  bool is_opaque(int quad) const { return opacity_[quad] == PatchOpacity::opaque; }
+  PatchOpacity opacity(int quad) const { return opacity_[quad]; }
+  bool is_opaque(int quad) const { return opacity(quad) == PatchOpacity::opaque; }
   /// Quads of this opacity in painting order.
   std::vector<int> quads(PatchOpacity opacity) const;
 
