@@ -33,7 +33,7 @@ LevelDetail detail_of(SvgLevel level) {
     case SvgLevel::balanced:
       break;
   }
-  return {2, 8};
+  return {1.5, 8};
 }
 
 class SvgFile {

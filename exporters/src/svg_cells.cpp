@@ -15,6 +15,8 @@ constexpr double kSmallestSide = 1;
 constexpr double kPathBytes = 8, kPathDataBytes = 0.55;
 /// And the same path again right after it.
 constexpr double kRepeatedPathBytes = 10;
+/// An error of alpha counts as much as one of each of several channels: it shows what lies below.
+constexpr double kAlphaCounts = 4;
 /// The least that another cell takes.
 constexpr double kLeastCellBytes = 30;
 
@@ -27,7 +29,7 @@ class PatchDivider {
         position_(layer.geometry(quad)),
         color_(layer.color(quad)),
         paint_(paint),
-        price_(detail.price),
+        price_(paint == CellPaint::alpha ? detail.price / kAlphaCounts : detail.price),
         units_(detail.units_per_pixel),
         bleed_(bleed) {}
 

@@ -12,13 +12,13 @@ using Geometry = BicubicHermite<Vector2d>;
 
 /// Farthest that a straight line may be from the curve it stands for, in pixels: along the outline
 /// of the mesh and tears, along seams of smooth colour, and where later cells hide it.
-constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.25, kHiddenFlatness = 0.25;
+constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.6, kHiddenFlatness = 0.25;
 /// The bleed ends at this part of the width of a patch at the latest: beyond it may lie something
 /// that is painted earlier.
 constexpr double kDeepestBleed = 0.5;
 /// How far a seam may be from its chord where corners alone are moved for the bleed, in bleeds; and
 /// the least sine of the angle between a side and the next along which a corner moves.
-constexpr double kPlainFlatness = 0.4, kLeastSlope = 0.5;
+constexpr double kPlainFlatness = 0.6, kLeastSlope = 0.5;
 /// Points of an outline nearer than this to the line past them are left out, in pixels.
 constexpr double kStraightness = 0.06;
 
@@ -96,12 +96,13 @@ class OutlineBuilder {
 
  private:
   /// True when moving the corners is bleed enough: the sides with bleed are about straight, and
-  /// neither the outline nor a tear meets the cell's corners, across which paint must not go.
+  /// the cell touches neither the outline nor a tear, across which paint must not go.
   bool is_plain(const BicubicBezier<Vector2d>& part) const {
     for (int k = 0; k < 4; ++k) {
       if (has_flange(k) && chord_distance(side_curve(part, k)) > kPlainFlatness * bleed_) {
         return false;
       }
+      if (!is_smooth_seam(k)) return false;
       const int before = (k + 3) & 3;
       const bool at_vertex = on_border(before) && on_border(k);
       if (at_vertex && (has_flange(before) || has_flange(k)) && !is_plain_vertex(4 * quad_ + k)) {

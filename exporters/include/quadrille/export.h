@@ -26,7 +26,7 @@ struct RasterFileOptions {
 /// the channels) by t^2 or more for a byte of the compressed file.
 enum class SvgLevel {
   compact,   ///< t = 4
-  balanced,  ///< t = 2
+  balanced,  ///< t = 1.5
   faithful,  ///< t = 0.8, and coordinates to 1/16 of a pixel instead of 1/8
 };
 
