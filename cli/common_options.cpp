@@ -135,15 +135,29 @@ void declare_document_options(CLI::App& parser, DocumentOptions& options) {
 }
 
 void declare_svg_options(CLI::App& parser, SvgOptions& options) {
-  static const std::map<std::string, SvgLevel> kLevels = {{"balanced", SvgLevel::balanced},
+  static const std::map<std::string, SvgLevel> kLevels = {{"compact", SvgLevel::compact},
+                                                          {"balanced", SvgLevel::balanced},
+                                                          {"faithful", SvgLevel::faithful},
                                                           {"inkscape", SvgLevel::inkscape}};
   parser
       .add_option_function<std::string>(
           "--svg-level", [&](const std::string& name) { options.level = kLevels.at(name); },
-          "what .svg files are made of: balanced (gradients that every program draws) or inkscape "
-          "(mesh gradients to edit in Inkscape; other programs show flat colours)")
-      ->check(CLI::IsMember({"balanced", "inkscape"}))
+          "how closely .svg files show the picture, at the price of their size: compact, balanced "
+          "or faithful; or inkscape: mesh gradients to edit in Inkscape, of which other programs "
+          "show "
+          "flat colours")
+      ->check(CLI::IsMember({"compact", "balanced", "faithful", "inkscape"}))
       ->default_str("balanced");
+  parser
+      .add_option_function<double>(
+          "--svg-size-limit",
+          [&](double kilobytes) {
+            options.size_limit = static_cast<std::uint64_t>(std::llround(1000 * kilobytes));
+          },
+          "most size of .svg and .svgz files in KB (1000 bytes) as written; searches the colour "
+          "tolerance that fits")
+      ->check(CLI::Range(1.0, 1e9))
+      ->type_name("KB");
 }
 
 CLI::Validator positive_number() {

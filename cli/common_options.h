@@ -52,7 +52,7 @@ void declare_output(CLI::App& parser, std::filesystem::path& output);
 /// --lossless, for `.quad` outputs.
 void declare_document_options(CLI::App& parser, DocumentOptions& options);
 
-/// --svg-level, for `.svg` outputs.
+/// --svg-level and --svg-size-limit.
 void declare_svg_options(CLI::App& parser, SvgOptions& options);
 
 /// Accepts finite numbers above 0.

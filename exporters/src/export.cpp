@@ -19,6 +19,11 @@ void raster(const VectorImage& image, const std::filesystem::path& path,
   write_raster_file(image, path, options.raster, context);
 }
 
+void svg(const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
+         const RunContext& context) {
+  write_svg(image, path, options.svg, context);
+}
+
 const Format kFormats[] = {
     {".quad",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
@@ -30,9 +35,8 @@ const Format kFormats[] = {
     {".tif", raster},
     {".tiff", raster},
     {".dzi", raster},
-    {".svg",
-     [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
-        const RunContext& context) { write_svg(image, path, options.svg, context); }},
+    {".svg", svg},
+    {".svgz", svg},
 #ifdef QUADRILLE_HAS_CAIRO
     {".pdf",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,

@@ -1,130 +1,110 @@
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <utility>
-#include <vector>
 
-#include "arena_size.h"
+#include "ending.h"
+#include "gzip_stream.h"
 #include "inkscape_svg.h"
 #include "quadrille/atomic_file.h"
 #include "quadrille/error.h"
 #include "quadrille/export.h"
-#include "svg_cell_writer.h"
-#include "svg_cells.h"
-#include "svg_layer.h"
-#include "svg_outline.h"
+#include "svg_size.h"
 #include "svg_text.h"
+#include "svg_writer.h"
 
 namespace quadrille {
 namespace {
 
-/// How far a cell goes on under what is painted later, in pixels of the picture: at scale 1 and
-/// above, a device pixel on a seam is then covered by the first cell alone.
-constexpr double kBleed = 1;
-/// Patches that are worked on together; bounds the memory.
-constexpr int kChunk = 512;
+/// The tolerance of which a size limit makes the most use, and the rounds of the search for the one
+/// that fits.
+constexpr double kCoarsestTolerance = 128;
+constexpr int kSearchRounds = 9;
 
-struct PaintedCell {
-  SvgOutline outline;
-  GradientFill fill;
+struct LevelDetail {
+  double tolerance;
+  int units_per_pixel;
 };
 
-class SvgWriter {
- public:
-  SvgWriter(const VectorImage& image, const SvgOptions& options, const RunContext& context,
-            std::ostream& out)
-      : image_(image), options_(options), context_(context), out_(out), cells_(out) {}
+LevelDetail detail_of(SvgLevel level) {
+  switch (level) {
+    case SvgLevel::compact:
+      return {4, 8};
+    case SvgLevel::faithful:
+      return {0.8, 16};
+    case SvgLevel::balanced:
+    case SvgLevel::inkscape:
+      break;
+  }
+  return {1.5, 8};
+}
 
-  void write() {
-    const std::string w = to_text(image_.width), h = to_text(image_.height);
-    out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-         << "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"" << w
-         << "\" height=\"" << h << "\" viewBox=\"0 0 " << w << ' ' << h << "\" role=\"img\">\n"
-         << "<title>" << xml_escaped(options_.title) << "</title>\n"
-         << "<g transform=\"scale(" << to_text(1.0 / SvgPathData::kUnitsPerPixel) << ")\">\n";
-    for (const Layer& layer : image_.layers) write_layer(layer);
-    out_ << "</g>\n</svg>\n";
+class SvgFile {
+ public:
+  SvgFile(const VectorImage& image, const SvgOptions& options, const RunContext& context,
+          bool compressed)
+      : image_(image), options_(options), context_(context), compressed_(compressed) {}
+
+  void write(double tolerance, std::ostream& out) const {
+    if (!compressed_) return write_text(tolerance, out);
+    GzipBuffer gzip(out);
+    std::ostream text(&gzip);
+    text.exceptions(std::ios::badbit);
+    write_text(tolerance, text);
+    gzip.finish();
+  }
+
+  /// The level's tolerance, or about the least one above it that keeps the file within the limit.
+  double tolerance() const {
+    double fine = detail_of(options_.level).tolerance;
+    if (options_.size_limit == 0 || size(fine) <= options_.size_limit) return fine;
+    double coarse = kCoarsestTolerance;
+    const std::uint64_t least = size(coarse);
+    if (least > options_.size_limit) {
+      throw Error(ErrorCode::limit_exceeded,
+                  "the SVG file takes at least " + to_text(std::ceil(double(least) / 1000)) +
+                      " KB, above the limit of " + to_text(double(options_.size_limit) / 1000) +
+                      " KB; allow more, or use fewer quads");
+    }
+    for (int round = 0; round < kSearchRounds; ++round) {
+      const double middle = std::sqrt(fine * coarse);
+      (size(middle) <= options_.size_limit ? coarse : fine) = middle;
+    }
+    return coarse;
   }
 
  private:
-  void write_layer(const Layer& source) {
-    const SvgLayer layer(source, 0.5 * options_.tolerance / 255);
-    const std::vector<int> translucent = layer.quads(PatchOpacity::translucent);
-    const std::vector<int> opaque = layer.quads(PatchOpacity::opaque);
-    out_ << "<g>\n";
-    if (!translucent.empty()) write_masked(layer, translucent);
-    write_cells(layer, opaque, CellPaint::color);
-    out_ << "</g>\n";
-  }
-
-  /// Overlapping translucent cells would add up. So their alpha is painted in opaque grays, seams
-  /// under bleed as always, and is then the mask of their colours.
-  void write_masked(const SvgLayer& layer, const std::vector<int>& quads) {
-    const std::string id = "mask" + std::to_string(mask_count_++);
-    constexpr double kUnits = SvgPathData::kUnitsPerPixel;
-    out_ << "<mask id=\"" << id << "\" maskUnits=\"userSpaceOnUse\" x=\"0\" y=\"0\" width=\""
-         << to_text(image_.width * kUnits) << "\" height=\"" << to_text(image_.height * kUnits)
-         << "\">\n";
-    write_cells(layer, quads, CellPaint::alpha);
-    out_ << "</mask>\n<g mask=\"url(#" << id << ")\">\n";
-    write_cells(layer, quads, CellPaint::color);
-    out_ << "</g>\n";
-  }
-
-  void write_cells(const SvgLayer& layer, const std::vector<int>& quads, CellPaint paint) {
-    const int count = static_cast<int>(quads.size());
-    for (int begin = 0; begin < count; begin += kChunk) {
-      const int end = std::min(begin + kChunk, count);
-      std::vector<std::vector<PaintedCell>> painted(end - begin);
-      arena_.execute([&] {
-        tbb::parallel_for(begin, end,
-                          [&](int i) { painted[i - begin] = paint_patch(layer, quads[i], paint); });
-      });
-      for (const auto& patch : painted) {
-        for (const PaintedCell& cell : patch) cells_.add(cell.outline, cell.fill);
-      }
-      if (paint == CellPaint::color) painted_ += end - begin;
-      context_.progress("write SVG", double(painted_) / image_.patch_count());
+  void write_text(double tolerance, std::ostream& out) const {
+    if (options_.level == SvgLevel::inkscape) {
+      return write_inkscape_svg(out, image_, options_.title, context_);
     }
-    cells_.finish();
+    const SvgDetail detail{tolerance * tolerance, detail_of(options_.level).units_per_pixel};
+    write_svg_text(image_, options_.title, detail, context_, out);
   }
-
-  std::vector<PaintedCell> paint_patch(const SvgLayer& layer, int quad, CellPaint paint) const {
-    std::vector<PaintedCell> painted;
-    for (const SvgCell& cell :
-         divide_into_cells(layer.geometry(quad), layer.color(quad), paint, options_.tolerance)) {
-      painted.push_back({cell_outline(layer, quad, cell.box, kBleed), cell.fill});
-    }
-    return painted;
+  std::uint64_t size(double tolerance) const {
+    CountingBuffer counter;
+    std::ostream out(&counter);
+    write(tolerance, out);
+    return counter.count();
   }
 
   const VectorImage& image_;
   const SvgOptions& options_;
   const RunContext& context_;
-  std::ostream& out_;
-  SvgCellWriter cells_;
-  tbb::task_arena arena_{arena_size(context_)};
-  int mask_count_ = 0;
-  int painted_ = 0;
+  bool compressed_;
 };
 
 }  // namespace
 
 void write_svg(const VectorImage& image, const std::filesystem::path& path,
                const SvgOptions& options, const RunContext& context) {
-  if (!(options.tolerance > 0)) {
-    throw Error(ErrorCode::invalid_argument, "the SVG tolerance is " + to_text(options.tolerance) +
-                                                 "; choose one above 0, such as 4");
+  if (options.level == SvgLevel::inkscape && options.size_limit != 0) {
+    throw Error(
+        ErrorCode::invalid_argument,
+        "the SVG level inkscape has no tolerance to search for a size limit; leave the limit "
+        "out, or choose another level");
   }
-  write_stream_atomically(path, [&](std::ostream& file) {
-    if (options.level == SvgLevel::inkscape) {
-      write_inkscape_svg(file, image, options.title, context);
-    } else {
-      SvgWriter(image, options, context, file).write();
-    }
-  });
+  const SvgFile svg(image, options, context, lower_case_ending(path) == ".svgz");
+  write_stream_atomically(path, [&](std::ostream& file) { svg.write(svg.tolerance(), file); });
 }
 
 }  // namespace quadrille

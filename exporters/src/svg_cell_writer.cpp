@@ -1,6 +1,7 @@
 #include "svg_cell_writer.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "svg_text.h"
 
@@ -9,10 +10,8 @@ namespace {
 
 /// Equal gradients are found among this many recent ones.
 constexpr std::size_t kRemembered = 4096;
-/// Decimals of gradient vectors, in parts of the cell's bounds.
-constexpr int kVectorDigits = 2;
 
-std::string hex(const GradientFill::Rgb& rgb) {
+std::string hex(const LinearGradient::Rgb& rgb) {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string text = "#";
   for (const std::uint8_t value : rgb) {
@@ -22,72 +21,79 @@ std::string hex(const GradientFill::Rgb& rgb) {
   return text;
 }
 
-/// The gradient vector in units of the bounding box (objectBoundingBox, the default), where it is
-/// short to write. The gradient is an affine function of the position, 0 at the first stop and 1 at
-/// the last; it stays one in the box. Lines of equal colour are free to slide along, so that the
-/// vector may start on an axis of the box.
-std::string vector_of(const GradientFill& fill, const Eigen::AlignedBox2d& bounds) {
-  const Eigen::Vector2d along = fill.to - fill.from;
-  const Eigen::Vector2d slope = (along / along.squaredNorm()).cwiseProduct(bounds.sizes());
-  const double at_origin = along.dot(bounds.min() - fill.from) / along.squaredNorm();
-  Eigen::Vector2d first = Eigen::Vector2d::Zero();
-  const int axis = std::abs(slope.x()) >= std::abs(slope.y()) ? 0 : 1;
-  first[axis] = -at_origin / slope[axis];
-  const Eigen::Vector2d last = first + slope / slope.squaredNorm();
-
+/// The attributes of a gradient vector in units of the bounding box.
+std::string vector_of(const LinearGradient& g) {
+  const double angle = std::numbers::pi * g.direction / LinearGradient::kDirections;
+  const double x = std::cos(angle), y = std::sin(angle);
+  const double low = std::min(0.0, x) + std::min(0.0, y), extent = std::abs(x) + std::abs(y);
+  const auto at = [&](int place) { return low + extent * place / LinearGradient::kPlaces; };
   std::string text;
-  const auto add = [&](const char* name, double value, const char* preset) {
-    const std::string number = to_short_text(value, kVectorDigits);
-    if (number != preset) text += std::string(" ") + name + "=\"" + number + "\"";
+  const auto add = [&](const char* name, double value) {
+    text += std::string(" ") + name + "=\"" + to_short_text(value, 4) + "\"";
   };
-  add("x1", first.x(), "0");
-  add("y1", first.y(), "0");
-  add("x2", last.x(), "1");
-  add("y2", last.y(), "0");
+  add("x1", x * at(g.first));
+  add("y1", y * at(g.first));
+  add("x2", x * at(g.last));
+  add("y2", y * at(g.last));
   return text;
 }
 
-std::string stops_of(const GradientFill& fill) {
+std::string stops_of(const LinearGradient& g) {
   std::string text;
-  for (int k = 0; k < fill.stop_count; ++k) {
-    text += "<stop offset=\"" + to_short_text(double(k) / (fill.stop_count - 1), 3) +
-            "\" stop-color=\"" + hex(fill.stops[k]) + "\"/>";
+  for (int k = 0; k < g.stop_count; ++k) {
+    text += "<stop offset=\"" + to_short_text(double(k) / (g.stop_count - 1), 2) +
+            "\" stop-color=\"" + hex(g.stops[k]) + "\"/>";
   }
   return text;
 }
 
 }  // namespace
 
-void SvgCellWriter::add(const SvgOutline& outline, const GradientFill& fill) {
-  if (fill.stop_count == 1) {
-    const std::string color = hex(fill.stops[0]);
+void SvgCellWriter::add(const SvgOutline& outline, const CellFill& fill) {
+  if (fill.base.stop_count == 1) {
+    const std::string color = hex(fill.base.stops[0]);
     if (color != flat_color_) finish();
     flat_color_ = color;
     flat_path_.append(outline);
     return;
   }
   finish();
-  SvgPathData path;
+  SvgPathData path(units_);
   path.append(outline);
-  const std::string id = gradient_id(fill, path.bounds());
-  out_ << "<path fill=\"url(#" << id << ")\" d=\"" << path.text() << "\"/>\n";
+  const std::string base = gradient_id(fill.base);
+  const bool layered = fill.overlay_opacity > 0;
+  const std::string overlay = layered ? gradient_id(fill.overlay) : "";
+  out_ << "<path fill=\"url(#" << base << ")\" d=\"" << path.text() << "\"/>\n";
+  if (!layered) return;
+  out_ << "<path fill=\"url(#" << overlay << ")\" d=\"" << path.text() << "\" fill-opacity=\""
+       << to_short_text(fill.overlay_opacity, 2) << "\"/>\n";
 }
 
 void SvgCellWriter::finish() {
   if (flat_color_.empty()) return;
   out_ << "<path fill=\"" << flat_color_ << "\" d=\"" << flat_path_.text() << "\"/>\n";
   flat_color_.clear();
-  flat_path_ = {};
+  flat_path_ = SvgPathData(units_);
 }
 
-std::string SvgCellWriter::gradient_id(const GradientFill& fill,
-                                       const Eigen::AlignedBox2d& bounds) {
-  const std::string body = vector_of(fill, bounds) + ">" + stops_of(fill);
+std::string SvgCellWriter::gradient_id(const LinearGradient& gradient) {
+  const std::string direction = vector_id(gradient);
+  const std::string body = direction + "\">" + stops_of(gradient);
   if (gradients_.size() >= kRemembered) gradients_.clear();
   const auto [entry, is_new] = gradients_.try_emplace(body);
   if (is_new) {
-    entry->second = short_identifier(gradient_count_++);
-    out_ << "<linearGradient id=\"" << entry->second << "\"" << body << "</linearGradient>\n";
+    entry->second = short_identifier(id_count_++);
+    out_ << "<linearGradient id=\"" << entry->second << "\" xlink:href=\"#" << body
+         << "</linearGradient>\n";
+  }
+  return entry->second;
+}
+
+std::string SvgCellWriter::vector_id(const LinearGradient& gradient) {
+  const auto [entry, is_new] = vectors_.try_emplace(vector_of(gradient));
+  if (is_new) {
+    entry->second = short_identifier(id_count_++);
+    out_ << "<linearGradient id=\"" << entry->second << "\"" << entry->first << "/>\n";
   }
   return entry->second;
 }

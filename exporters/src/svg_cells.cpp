@@ -2,67 +2,104 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "svg_path.h"
 
 namespace quadrille {
 namespace {
 
 /// Cells are not divided across a side shorter than this, in pixels of the picture.
-constexpr double kSmallestSide = 0.5;
+constexpr double kSmallestSide = 1;
+/// What a path takes in a compressed file, in bytes: its element, and per character of its data.
+constexpr double kPathBytes = 8, kPathDataBytes = 0.55;
+/// And the same path again right after it.
+constexpr double kRepeatedPathBytes = 10;
+/// An error of alpha counts as much as one of each of several channels: it shows what lies below.
+constexpr double kAlphaCounts = 4;
+/// The least that another cell takes.
+constexpr double kLeastCellBytes = 30;
 
 class PatchDivider {
  public:
-  PatchDivider(const BicubicHermite<Eigen::Vector2d>& geometry, const BicubicHermite<Color>& color,
-               CellPaint paint, double tolerance)
-      : position_(geometry), color_(color), paint_(paint), tolerance_(tolerance) {}
+  PatchDivider(const SvgLayer& layer, int quad, CellPaint paint, const SvgDetail& detail,
+               double bleed)
+      : layer_(layer),
+        quad_(quad),
+        position_(layer.geometry(quad)),
+        color_(layer.color(quad)),
+        paint_(paint),
+        price_(paint == CellPaint::alpha ? detail.price / kAlphaCounts : detail.price),
+        units_(detail.units_per_pixel),
+        bleed_(bleed) {}
 
   std::vector<SvgCell> run() {
     const ParameterBox whole;
-    divide(whole, fit(whole));
-    return std::move(cells_);
+    return divide(whole, candidate(whole)).cells;
   }
 
  private:
-  void divide(const ParameterBox& box, const GradientFit& found) {
-    const bool divide_u = found.error > tolerance_ && side_u(box) > kSmallestSide;
-    const bool divide_v = found.error > tolerance_ && side_v(box) > kSmallestSide;
-    if (!divide_u && !divide_v) {
-      cells_.push_back({box, found.fill});
-      return;
-    }
+  struct Candidate {
+    SvgCell cell;
+    double error = 0, cost = 0;
+  };
+  struct Division {
+    std::vector<SvgCell> cells;
+    double cost = 0;
+  };
+
+  Division divide(const ParameterBox& box, const Candidate& whole) const {
+    Division undivided{{whole.cell}, whole.cost};
+    if (whole.error <= price_ * kLeastCellBytes) return undivided;
+    const bool divide_u = side_u(box) > kSmallestSide, divide_v = side_v(box) > kSmallestSide;
+    if (!divide_u && !divide_v) return undivided;
     const double u = 0.5 * (box.u0 + box.u1), v = 0.5 * (box.v0 + box.v1);
-    const Halves by_u{{{box.u0, box.v0, u, box.v1}, {u, box.v0, box.u1, box.v1}}};
-    const Halves by_v{{{box.u0, box.v0, box.u1, v}, {box.u0, v, box.u1, box.v1}}};
+    const Boxes by_u{{{box.u0, box.v0, u, box.v1}, {u, box.v0, box.u1, box.v1}}};
+    const Boxes by_v{{{box.u0, box.v0, box.u1, v}, {box.u0, v, box.u1, box.v1}}};
+    Halves halves;
+    Boxes boxes;
     if (divide_u && divide_v) {
-      const Fits fits_u = fit(by_u), fits_v = fit(by_v);
-      cost(fits_u) <= cost(fits_v) ? divide(by_u, fits_u) : divide(by_v, fits_v);
+      const Halves halves_u = candidates(by_u), halves_v = candidates(by_v);
+      const bool u_wins = cost(halves_u) <= cost(halves_v);
+      boxes = u_wins ? by_u : by_v;
+      halves = u_wins ? halves_u : halves_v;
     } else {
-      divide_u ? divide(by_u, fit(by_u)) : divide(by_v, fit(by_v));
+      boxes = divide_u ? by_u : by_v;
+      halves = candidates(boxes);
     }
+    Division divided = divide(boxes[0], halves[0]);
+    Division second = divide(boxes[1], halves[1]);
+    divided.cost += second.cost;
+    if (divided.cost >= undivided.cost) return undivided;
+    divided.cells.insert(divided.cells.end(), std::make_move_iterator(second.cells.begin()),
+                         std::make_move_iterator(second.cells.end()));
+    return divided;
   }
 
-  using Halves = std::array<ParameterBox, 2>;
-  using Fits = std::array<GradientFit, 2>;
+  using Boxes = std::array<ParameterBox, 2>;
+  using Halves = std::array<Candidate, 2>;
 
-  void divide(const Halves& halves, const Fits& fits) {
-    for (int k = 0; k < 2; ++k) divide(halves[k], fits[k]);
+  Halves candidates(const Boxes& boxes) const { return {candidate(boxes[0]), candidate(boxes[1])}; }
+  static double cost(const Halves& halves) { return halves[0].cost + halves[1].cost; }
+
+  Candidate candidate(const ParameterBox& box) const {
+    Candidate found;
+    found.cell.outline = cell_outline(layer_, quad_, box, bleed_);
+    SvgPathData path(units_);
+    path.append(found.cell.outline);
+    const double bytes = kPathBytes + kPathDataBytes * double(path.text().size());
+    const CellFit fit = fit_cell(samples(box), path.bounds(), price_, kRepeatedPathBytes);
+    found.cell.fill = fit.fill;
+    found.error = fit.squared_error;
+    found.cost = fit.cost(price_) + price_ * bytes;
+    return found;
   }
-  Fits fit(const Halves& halves) const { return {fit(halves[0]), fit(halves[1])}; }
 
-  /// About how many bytes the halves will take in a compressed file, by which two ways to divide
-  /// are compared; a half whose error is too large needs about as many cells as it misses by.
-  double cost(const Fits& fits) const {
-    double bytes = 0;
-    for (const GradientFit& f : fits) {
-      const bool fits_well = f.error <= tolerance_;
-      bytes += fits_well ? 32 + 6 * f.fill.stop_count : 30 + 60 * f.error / tolerance_;
-    }
-    return bytes;
-  }
-
-  GradientFit fit(const ParameterBox& box) const {
+  CellSamples samples(const ParameterBox& box) const {
     constexpr int n = CellSamples::kSide;
     constexpr double kMiddle = 0.5 * (n - 1);
     CellSamples samples;
+    const double share = (box.u1 - box.u0) * (box.v1 - box.v0) / CellSamples::kCount;
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
         // The grid is turned a little: samples in line with a gradient's stops could not tell what
@@ -71,23 +108,25 @@ class PatchDivider {
         const double s = std::clamp(0.5 + (across + down / n) / (n - 1), 0.0, 1.0);
         const double t = std::clamp(0.5 + (down - across / n) / (n - 1), 0.0, 1.0);
         set_sample(samples, j * n + i, box.u0 + (box.u1 - box.u0) * s,
-                   box.v0 + (box.v1 - box.v0) * t);
+                   box.v0 + (box.v1 - box.v0) * t, share);
       }
     }
-    return fit_gradient(samples, tolerance_);
+    return samples;
   }
 
-  void set_sample(CellSamples& samples, int index, double u, double v) const {
+  void set_sample(CellSamples& samples, int index, double u, double v, double share) const {
     const Color c = color_.at(u, v);
-    const float alpha = std::clamp(c[3], 0.0f, 1.0f);
+    const double alpha = std::clamp(double(c[3]), 0.0, 1.0);
+    const Eigen::Vector2d du = position_.derivative_u(u, v), dv = position_.derivative_v(u, v);
+    const double area = share * std::abs(du.x() * dv.y() - du.y() * dv.x());
     samples.position[index] = position_.at(u, v);
     if (paint_ == CellPaint::alpha) {
-      samples.color[index] = Eigen::Array3f::Constant(255 * alpha);
-      samples.weight[index] = 1;
+      samples.color[index] = Eigen::Array3d::Constant(255 * alpha);
+      samples.weight[index] = area;
     } else {
-      const float straight = 255 / std::max(alpha, 1e-3f);
-      samples.color[index] = (c.head<3>() * straight).max(0.0f).min(255.0f);
-      samples.weight[index] = alpha;
+      const double straight = 255 / std::max(alpha, 1e-3);
+      samples.color[index] = (c.head<3>().cast<double>() * straight).max(0.0).min(255.0);
+      samples.weight[index] = area * alpha * alpha;
     }
   }
 
@@ -100,19 +139,21 @@ class PatchDivider {
     return position_.derivative_v(u, v).norm() * (box.v1 - box.v0);
   }
 
-  const BicubicHermite<Eigen::Vector2d>& position_;
-  const BicubicHermite<Color>& color_;
+  const SvgLayer& layer_;
+  int quad_;
+  BicubicHermite<Eigen::Vector2d> position_;
+  BicubicHermite<Color> color_;
   CellPaint paint_;
-  double tolerance_;
-  std::vector<SvgCell> cells_;
+  double price_;
+  int units_;
+  double bleed_;
 };
 
 }  // namespace
 
-std::vector<SvgCell> divide_into_cells(const BicubicHermite<Eigen::Vector2d>& geometry,
-                                       const BicubicHermite<Color>& color, CellPaint paint,
-                                       double tolerance) {
-  return PatchDivider(geometry, color, paint, tolerance).run();
+std::vector<SvgCell> divide_into_cells(const SvgLayer& layer, int quad, CellPaint paint,
+                                       const SvgDetail& detail, double bleed) {
+  return PatchDivider(layer, quad, paint, detail, bleed).run();
 }
 
 }  // namespace quadrille

@@ -2,27 +2,26 @@
 
 #include <vector>
 
-#include "quadrille/bicubic.h"
-#include "quadrille/patch_mesh.h"
-#include "subdivision.h"
+#include "svg_detail.h"
 #include "svg_gradient.h"
+#include "svg_layer.h"
+#include "svg_outline.h"
 
 namespace quadrille {
 
-/// A part of a patch that one gradient paints well enough.
+/// A part of a patch as it is painted.
 struct SvgCell {
-  ParameterBox box;
-  GradientFill fill;
+  SvgOutline outline;
+  CellFill fill;
 };
 
 /// What cells show: the colour itself, or alpha as gray for a mask.
 enum class CellPaint { color, alpha };
 
-/// Divides a patch until each cell's fill is within the tolerance (8-bit steps; colours count by
-/// their alpha) or the cell is too small to matter. Cells come in an order in which each one may be
-/// painted on over everything to its right and below in (u, v): those cells follow it.
-std::vector<SvgCell> divide_into_cells(const BicubicHermite<Eigen::Vector2d>& geometry,
-                                       const BicubicHermite<Color>& color, CellPaint paint,
-                                       double tolerance);
+/// Divides a patch into cells so that about the least squared error remains for the bytes that they
+/// take at the price of the detail; colours count by their alpha. Cells come in the order in which
+/// they are to be painted; each one reaches `bleed` pixels under those that follow it.
+std::vector<SvgCell> divide_into_cells(const SvgLayer& layer, int quad, CellPaint paint,
+                                       const SvgDetail& detail, double bleed);
 
 }  // namespace quadrille

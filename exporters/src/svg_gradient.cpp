@@ -1,195 +1,223 @@
 #include "svg_gradient.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
+
+#include "svg_ridge.h"
 
 namespace quadrille {
 namespace {
 
-using Eigen::Array3f;
-using Eigen::Vector2d;
+using Eigen::Array3d;
 
-GradientFill::Rgb rounded(const Array3f& color) {
-  GradientFill::Rgb rgb;
+/// Stop counts that are tried.
+constexpr int kCounts[] = {2, 3, 4, 6, 8};
+/// With which the directions of two gradients are chosen, and the most of each of two.
+constexpr int kScoutStops = 4, kMostOfTwo = 6;
+/// Opacities of the second gradient, the least first: the first gradient alone is then nearest to
+/// the whole, and half-covered pixels at seams err least.
+constexpr double kOpacities[] = {0.2, 0.35, 0.5, 0.65};
+/// What the parts of a fill take in a compressed file, in bytes.
+constexpr double kFlatBytes = 5, kGradientBytes = 11, kStopBytes = 5.7;
+
+double gradient_bytes(int stops) { return kGradientBytes + kStopBytes * stops; }
+
+/// Colours of the stops, one per row.
+using Stops = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, LinearGradient::kMaxStops, 3>;
+
+LinearGradient gradient_of(const RidgeAxis& axis, int direction, const Stops& stops) {
+  LinearGradient gradient{.direction = direction,
+                          .first = axis.first,
+                          .last = axis.last,
+                          .stop_count = static_cast<int>(stops.rows())};
+  for (int k = 0; k < gradient.stop_count; ++k) {
+    gradient.stops[k] = rounded_color(stops.row(k).transpose().array());
+  }
+  return gradient;
+}
+
+class CellFitter {
+ public:
+  CellFitter(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double price,
+             double again)
+      : s_(samples), price_(price), again_(again) {
+    for (int d = 0; d < LinearGradient::kDirections; ++d) {
+      axes_[d] = ridge_axis(samples, bounds, d);
+    }
+    for (int i = 0; i < CellSamples::kCount; ++i) {
+      total_ += s_.weight[i];
+      mean_ += s_.weight[i] * s_.color[i];
+      squares_ += s_.weight[i] * s_.color[i].square().sum();
+    }
+    if (total_ > 0) mean_ /= total_;
+  }
+
+  CellFit run() {
+    CellFit best = flat();
+    // Nothing more can pay when even a perfect fill would not.
+    if (best.squared_error <= price_ * (gradient_bytes(2) - kFlatBytes)) return best;
+    const CellFit one = single();
+    if (one.cost(price_) < best.cost(price_)) best = one;
+    if (one.squared_error <= price_ * (again_ + gradient_bytes(2))) return best;
+    const std::optional<CellFit> two = pair();
+    if (two && two->cost(price_) < best.cost(price_)) best = *two;
+    return best;
+  }
+
+ private:
+  CellFit flat() const {
+    CellFit fit;
+    fit.fill.base.stops[0] = rounded_color(mean_);
+    fit.bytes = kFlatBytes;
+    measure(fit);
+    return fit;
+  }
+
+  CellFit single() const {
+    double lowest = std::numeric_limits<double>::max();
+    int direction = 0;
+    RidgeSolution<RidgeSystem::kSize> best;
+    for (const int stops : kCounts) {
+      for (int d = 0; d < LinearGradient::kDirections; ++d) {
+        const auto solution = solve_ridge(RidgeSystem(s_, axes_[d], stops));
+        const double cost = (squares_ - solution.explained) / 3 + price_ * gradient_bytes(stops);
+        if (cost < lowest) lowest = cost, direction = d, best = solution;
+      }
+    }
+    CellFit fit;
+    fit.fill.base = gradient_of(axes_[direction], direction, best.stops);
+    fit.bytes = gradient_bytes(fit.fill.base.stop_count);
+    measure(fit);
+    return fit;
+  }
+
+  struct Pair {
+    int direction[2] = {0, 0};
+    int stops[2] = {kScoutStops, kScoutStops};
+    double cost = std::numeric_limits<double>::max();
+    RidgeSolution<2 * RidgeSystem::kSize> solution;
+  };
+
+  void try_pair(Pair& best, const RidgeSystem& a, int da, const RidgeSystem& b, int db) const {
+    Pair pair{{da, db}, {a.stops, b.stops}, 0, solve_ridges(s_, a, b)};
+    pair.cost = (squares_ - pair.solution.explained) / 3 +
+                price_ * (gradient_bytes(a.stops) + gradient_bytes(b.stops) + again_);
+    if (pair.cost < best.cost) best = pair;
+  }
+
+  std::optional<CellFit> pair() const {
+    std::array<RidgeSystem, LinearGradient::kDirections> scouts;
+    for (int d = 0; d < LinearGradient::kDirections; ++d) {
+      scouts[d] = RidgeSystem(s_, axes_[d], kScoutStops);
+    }
+    Pair best;
+    for (int a = 0; a < LinearGradient::kDirections; ++a) {
+      for (int b = a + 1; b < LinearGradient::kDirections; ++b) {
+        try_pair(best, scouts[a], a, scouts[b], b);
+      }
+    }
+    const auto [a, b] = best.direction;
+    for (const int stops_a : kCounts) {
+      for (const int stops_b : kCounts) {
+        if (stops_a > kMostOfTwo || stops_b > kMostOfTwo) continue;
+        try_pair(best, RidgeSystem(s_, axes_[a], stops_a), a, RidgeSystem(s_, axes_[b], stops_b),
+                 b);
+      }
+    }
+    return layered(best);
+  }
+
+  /// The two gradients whose mixture is the sum that was found.
+  std::optional<CellFit> layered(const Pair& pair) const {
+    Stops part[2] = {pair.solution.stops.topRows(pair.stops[0]),
+                     pair.solution.stops.bottomRows(pair.stops[1])};
+    const auto range = [](const Stops& stops) {
+      return (stops.colwise().maxCoeff() - stops.colwise().minCoeff()).sum();
+    };
+    const int over = range(part[0]) < range(part[1]) ? 0 : 1;  // the smaller part
+    const int under = 1 - over;
+    std::optional<CellFit> best;
+    for (const double opacity : kOpacities) {
+      Stops base = part[under], overlay = part[over];
+      const bool fits = share(base, overlay, opacity);
+      CellFit fit;
+      const int d0 = pair.direction[under], d1 = pair.direction[over];
+      fit.fill.base = gradient_of(axes_[d0], d0, base / (1 - opacity));
+      fit.fill.overlay = gradient_of(axes_[d1], d1, overlay / opacity);
+      fit.fill.overlay_opacity = opacity;
+      fit.bytes = gradient_bytes(pair.stops[0]) + gradient_bytes(pair.stops[1]) + again_;
+      measure(fit);
+      if (!best || fit.squared_error < best->squared_error) best = fit;
+      if (fits) break;
+    }
+    return best;
+  }
+
+  /// Moves a constant from one summand to the other so that both can be shown, each channel as near
+  /// as can be to the cell's mean colour. False where colours would leave the range.
+  bool share(Stops& base, Stops& overlay, double opacity) const {
+    bool fits = true;
+    for (int c = 0; c < 3; ++c) {
+      auto low = base.col(c), high = overlay.col(c);
+      const double wished = opacity * mean_[c] - high.mean();
+      const double least = std::max(-high.minCoeff(), low.maxCoeff() - 255 * (1 - opacity));
+      const double most = std::min(255 * opacity - high.maxCoeff(), low.minCoeff());
+      fits = fits && least <= most + 1;
+      const double shift = least <= most ? std::clamp(wished, least, most) : 0.5 * (least + most);
+      high.array() += shift;
+      low.array() -= shift;
+    }
+    return fits;
+  }
+
+  void measure(CellFit& fit) const {
+    double sum = 0;
+    const LinearGradient &base = fit.fill.base, &overlay = fit.fill.overlay;
+    const double opacity = fit.fill.overlay_opacity;
+    for (int i = 0; i < CellSamples::kCount; ++i) {
+      Array3d drawn = color_at(base, axes_[base.direction].place[i]);
+      if (opacity > 0) {
+        drawn += opacity * (color_at(overlay, axes_[overlay.direction].place[i]) - drawn);
+      }
+      sum += s_.weight[i] * (drawn - s_.color[i]).square().sum();
+    }
+    fit.squared_error = sum / 3;
+  }
+
+  static Array3d color_at(const LinearGradient& gradient, double place) {
+    const auto stop = [&](int k) -> Array3d {
+      const LinearGradient::Rgb& c = gradient.stops[k];
+      return {double(c[0]), double(c[1]), double(c[2])};
+    };
+    if (gradient.stop_count == 1) return stop(0);
+    const RidgePlace at = ridge_place(place, gradient.stop_count);
+    return stop(at.interval) * (1 - at.fraction) + stop(at.interval + 1) * at.fraction;
+  }
+
+  const CellSamples& s_;
+  double price_, again_;
+  std::array<RidgeAxis, LinearGradient::kDirections> axes_;
+  double total_ = 0, squares_ = 0;
+  Array3d mean_ = Array3d::Zero();
+};
+
+}  // namespace
+
+LinearGradient::Rgb rounded_color(const Array3d& color) {
+  LinearGradient::Rgb rgb;
   for (int k = 0; k < 3; ++k) {
-    rgb[k] = static_cast<std::uint8_t>(std::lround(std::clamp(color[k], 0.0f, 255.0f)));
+    rgb[k] = static_cast<std::uint8_t>(std::lround(std::clamp(color[k], 0.0, 255.0)));
   }
   return rgb;
 }
 
-Array3f to_array(const GradientFill::Rgb& rgb) {
-  return {float(rgb[0]), float(rgb[1]), float(rgb[2])};
-}
-
-float total_weight(const CellSamples& s) {
-  float sum = 0;
-  for (const float w : s.weight) sum += w;
-  return sum;
-}
-
-/// What a fill misses by; see GradientFit::error.
-class ErrorMeter {
- public:
-  void add(const Array3f& difference, float weight) {
-    const float squared = weight * weight * difference.square().sum() / 3;
-    largest_ = std::max(largest_, squared);
-    sum_ += squared;
-  }
-  double error() const {
-    const double mean = double(sum_) / CellSamples::kCount;
-    return std::max(0.5 * std::sqrt(double(largest_)), 2 * std::sqrt(mean));
-  }
-
- private:
-  float largest_ = 0, sum_ = 0;
-};
-
-GradientFit fit_flat(const CellSamples& s) {
-  Array3f low = Array3f::Constant(255), high = Array3f::Zero();
-  for (int i = 0; i < CellSamples::kCount; ++i) {
-    if (s.weight[i] <= 0) continue;
-    low = low.min(s.color[i]);
-    high = high.max(s.color[i]);
-  }
-  GradientFit fit;
-  fit.fill.stops[0] = rounded((low + high) / 2);
-  const Array3f flat = to_array(fit.fill.stops[0]);
-  ErrorMeter meter;
-  for (int i = 0; i < CellSamples::kCount; ++i) meter.add(s.color[i] - flat, s.weight[i]);
-  fit.error = meter.error();
-  return fit;
-}
-
-/// Places of the samples along a direction, scaled to [0, 1].
-struct Projection {
-  Vector2d from = {0, 0}, to = {0, 0};
-  std::array<float, CellSamples::kCount> place{};
-};
-
-Projection project(const CellSamples& s, const Vector2d& direction) {
-  std::array<double, CellSamples::kCount> along;
-  double low = std::numeric_limits<double>::max(), high = -low;
-  Vector2d middle = Vector2d::Zero();
-  for (int i = 0; i < CellSamples::kCount; ++i) {
-    along[i] = s.position[i].dot(direction);
-    low = std::min(low, along[i]);
-    high = std::max(high, along[i]);
-    middle += s.position[i] / CellSamples::kCount;
-  }
-  const double at_middle = middle.dot(direction), length = std::max(high - low, 1e-9);
-  Projection projection;
-  projection.from = middle + direction * (low - at_middle);
-  projection.to = middle + direction * (high - at_middle);
-  for (int i = 0; i < CellSamples::kCount; ++i) {
-    projection.place[i] = static_cast<float>((along[i] - low) / length);
-  }
-  return projection;
-}
-
-/// Stop colours by weighted least squares: the normal matrix of a linear spline is tridiagonal.
-GradientFit fit_stops(const CellSamples& s, const Projection& projection, int stops) {
-  std::array<float, GradientFill::kMaxStops> diagonal{}, beside{};
-  std::array<Array3f, GradientFill::kMaxStops> color;
-  color.fill(Array3f::Zero());
-  std::array<int, CellSamples::kCount> interval;
-  std::array<float, CellSamples::kCount> fraction;
-  for (int i = 0; i < CellSamples::kCount; ++i) {
-    const float x = projection.place[i] * float(stops - 1);
-    const int k = std::clamp(static_cast<int>(x), 0, stops - 2);
-    const float f = x - float(k), w = s.weight[i];
-    interval[i] = k;
-    fraction[i] = f;
-    diagonal[k] += w * (1 - f) * (1 - f);
-    diagonal[k + 1] += w * f * f;
-    beside[k] += w * f * (1 - f);
-    color[k] += s.color[i] * (w * (1 - f));
-    color[k + 1] += s.color[i] * (w * f);
-  }
-  // Pulls a stop without samples toward its neighbours.
-  const float smoothing = 1e-4f * total_weight(s) / float(stops) + 1e-9f;
-  for (int k = 0; k + 1 < stops; ++k) {
-    diagonal[k] += smoothing;
-    diagonal[k + 1] += smoothing;
-    beside[k] -= smoothing;
-  }
-  diagonal[0] += 1e-6f * smoothing + 1e-12f;
-  for (int k = 1; k < stops; ++k) {
-    const float factor = beside[k - 1] / diagonal[k - 1];
-    diagonal[k] -= factor * beside[k - 1];
-    color[k] -= factor * color[k - 1];
-  }
-  for (int k = stops - 1; k >= 0; --k) {
-    if (k + 1 < stops) color[k] -= beside[k] * color[k + 1];
-    color[k] /= diagonal[k];
-  }
-
-  GradientFit fit;
-  fit.fill = {.from = projection.from, .to = projection.to, .stop_count = stops};
-  for (int k = 0; k < stops; ++k) {
-    fit.fill.stops[k] = rounded(color[k]);
-    color[k] = to_array(fit.fill.stops[k]);
-  }
-  ErrorMeter meter;
-  for (int i = 0; i < CellSamples::kCount; ++i) {
-    const int k = interval[i];
-    const Array3f drawn = color[k] + (color[k + 1] - color[k]) * fraction[i];
-    meter.add(s.color[i] - drawn, s.weight[i]);
-  }
-  fit.error = meter.error();
-  return fit;
-}
-
-/// The direction in the picture along which the colours change most: the first eigenvector of the
-/// sum of grad c grad c^T over the quads of the sample grid.
-double angle_of_change(const CellSamples& s) {
-  double xx = 0, xy = 0, yy = 0;
-  constexpr int n = CellSamples::kSide;
-  for (int j = 0; j + 1 < n; ++j) {
-    for (int i = 0; i + 1 < n; ++i) {
-      const int a = j * n + i, b = a + 1, c = a + n, d = c + 1;
-      const Vector2d pu = s.position[b] - s.position[a] + s.position[d] - s.position[c];
-      const Vector2d pv = s.position[c] - s.position[a] + s.position[d] - s.position[b];
-      const double area = pu.x() * pv.y() - pu.y() * pv.x();
-      if (std::abs(area) < 1e-12) continue;
-      const Array3f cu = s.color[b] - s.color[a] + s.color[d] - s.color[c];
-      const Array3f cv = s.color[c] - s.color[a] + s.color[d] - s.color[b];
-      const Array3f gx = (cu * float(pv.y()) - cv * float(pu.y())) / float(area);
-      const Array3f gy = (cv * float(pu.x()) - cu * float(pv.x())) / float(area);
-      const double w = s.weight[a];
-      xx += w * (gx * gx).sum();
-      xy += w * (gx * gy).sum();
-      yy += w * (gy * gy).sum();
-    }
-  }
-  return 0.5 * std::atan2(2 * xy, xx - yy);
-}
-
-}  // namespace
-
-GradientFit fit_gradient(const CellSamples& samples, double tolerance) {
-  const GradientFit flat = fit_flat(samples);
-  if (flat.error <= tolerance) return flat;
-
-  const double angle = angle_of_change(samples);
-  constexpr double kTurns[] = {0, 0.12, -0.12, 0.3, -0.3};
-  GradientFit best;
-  Projection best_projection;
-  best.error = std::numeric_limits<double>::max();
-  for (const double turn : kTurns) {
-    const Projection projection =
-        project(samples, Vector2d(std::cos(angle + turn), std::sin(angle + turn)));
-    const GradientFit fit = fit_stops(samples, projection, GradientFill::kMaxStops);
-    if (fit.error < best.error) best = fit, best_projection = projection;
-    // A cell that misses by far along its main direction needs to be divided anyway.
-    if (turn == 0 && fit.error > 3 * tolerance) return fit;
-  }
-  if (best.error > tolerance) return best;
-  for (int stops = 2; stops < GradientFill::kMaxStops; ++stops) {
-    const GradientFit fit = fit_stops(samples, best_projection, stops);
-    if (fit.error <= tolerance) return fit;
-  }
-  return best;
+CellFit fit_cell(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double price,
+                 double again) {
+  return CellFitter(samples, bounds, price, again).run();
 }
 
 }  // namespace quadrille

@@ -1,11 +1,70 @@
 #include "svg_layer.h"
 
+#include <algorithm>
+
 #include "subdivision.h"
 
 namespace quadrille {
+namespace {
+
+/// Farther from the origin, in pixels, nothing is painted.
+constexpr double kFarthest = 1e7;
+
+bool can_be_painted(const BicubicHermite<Eigen::Vector2d>& position,
+                    const BicubicHermite<Color>& color) {
+  const auto is_near = [](const Eigen::Vector2d& p) {  // false for what is not finite
+    return (p.array().abs() < kFarthest).all();
+  };
+  const auto is_finite = [](const Color& c) { return c.allFinite(); };
+  const auto all = [](const auto& patch, const auto& holds) {
+    for (int k = 0; k < 4; ++k) {
+      if (!holds(patch.value[k]) || !holds(patch.du[k]) || !holds(patch.dv[k]) ||
+          !holds(patch.duv[k])) {
+        return false;
+      }
+    }
+    return true;
+  };
+  return all(position, is_near) && all(color, is_finite);
+}
+
+}  // namespace
 
 SvgLayer::SvgLayer(const Layer& layer, double tolerance)
-    : layer_(layer), opacity_(patch_opacities(layer.patches, tolerance)) {}
+    : layer_(layer), opacity_(patch_opacities(layer.patches, tolerance)) {
+  for (int q = 0; q < mesh().quad_count(); ++q) {
+    if (!can_be_painted(geometry(q), color(q))) opacity_[q] = PatchOpacity::transparent;
+  }
+  number_regions();
+}
+
+void SvgLayer::number_regions() {
+  region_.assign(mesh().quad_count(), -1);
+  std::vector<int> open;
+  int count = 0;
+  for (int q = 0; q < mesh().quad_count(); ++q) {
+    if (region_[q] >= 0) continue;
+    open.assign(1, q);
+    region_[q] = count;
+    while (!open.empty()) {
+      const int from = open.back();
+      open.pop_back();
+      for (int h = 4 * from; h < 4 * from + 4; ++h) {
+        const int twin = mesh().is_tear(mesh().edge(h)) ? -1 : mesh().twin(h);
+        if (twin < 0 || region_[QuadMesh::quad_of(twin)] >= 0) continue;
+        region_[QuadMesh::quad_of(twin)] = count;
+        open.push_back(QuadMesh::quad_of(twin));
+      }
+    }
+    ++count;
+  }
+}
+
+std::vector<int> SvgLayer::quads(PatchOpacity opacity) const {
+  std::vector<int> list = patches_with(opacity_, opacity);
+  std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return region_[a] < region_[b]; });
+  return list;
+}
 
 BicubicHermite<Eigen::Vector2d> SvgLayer::geometry(int quad) const {
   return placed_geometry(layer_, quad);
@@ -23,6 +82,7 @@ bool SvgLayer::is_painted_later(int h) const {
 bool SvgLayer::is_painted_later(int quad, int other) const {
   const PatchOpacity mine = opacity_[quad], its = opacity_[other];
   if (its == PatchOpacity::transparent) return false;
+  if (mine == its && region_[quad] != region_[other]) return region_[other] > region_[quad];
   return mine == its ? other > quad : its == PatchOpacity::opaque;
 }
 

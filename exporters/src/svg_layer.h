@@ -8,8 +8,8 @@
 namespace quadrille {
 
 /// A layer in the picture's coordinates, with the order in which its patches are painted: the
-/// translucent ones first, so that they can reach under the opaque ones; the transparent ones
-/// never.
+/// translucent ones first, so that they can reach under the opaque ones, both region by region; the
+/// transparent ones, and those with coordinates or colours that are not finite, never.
 class SvgLayer {
  public:
   /// Alpha within `tolerance` (of 1) of 0 or 1 counts as such. Keeps a reference to the layer.
@@ -22,12 +22,19 @@ class SvgLayer {
   bool is_painted_later(int h) const;
   /// True when `other` is painted after `quad`.
   bool is_painted_later(int quad, int other) const;
+  /// Number of the smooth region of a quad: quads that only tears separate are of different ones.
+  int region(int quad) const { return region_[quad]; }
+  PatchOpacity opacity(int quad) const { return opacity_[quad]; }
+  bool is_opaque(int quad) const { return opacity(quad) == PatchOpacity::opaque; }
   /// Quads of this opacity in painting order.
-  std::vector<int> quads(PatchOpacity opacity) const { return patches_with(opacity_, opacity); }
+  std::vector<int> quads(PatchOpacity opacity) const;
 
  private:
+  void number_regions();
+
   const Layer& layer_;
   std::vector<PatchOpacity> opacity_;
+  std::vector<int> region_;
 };
 
 }  // namespace quadrille

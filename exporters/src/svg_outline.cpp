@@ -12,9 +12,15 @@ using Geometry = BicubicHermite<Vector2d>;
 
 /// Farthest that a straight line may be from the curve it stands for, in pixels: along the outline
 /// of the mesh and tears, along seams of smooth colour, and where later cells hide it.
-constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.25, kHiddenFlatness = 0.5;
+constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.6, kHiddenFlatness = 0.25;
+/// The bleed ends at this part of the width of a patch at the latest: beyond it may lie something
+/// that is painted earlier.
+constexpr double kDeepestBleed = 0.5;
+/// How far a seam may be from its chord where corners alone are moved for the bleed, in bleeds; and
+/// the least sine of the angle between a side and the next along which a corner moves.
+constexpr double kPlainFlatness = 0.6, kLeastSlope = 0.5;
 /// Points of an outline nearer than this to the line past them are left out, in pixels.
-constexpr double kStraightness = 0.05;
+constexpr double kStraightness = 0.06;
 
 /// Parameters of the point at `s` along side k of the patch, `depth` inside of it.
 Vector2d on_side(int k, double s, double depth) {
@@ -33,12 +39,12 @@ Vector2d on_side(int k, double s, double depth) {
 Vector2d at(const Geometry& g, const Vector2d& uv) { return g.at(uv.x(), uv.y()); }
 
 /// How far the parameter may run from uv, across lines of constant u (or v), to cover `distance`
-/// pixels; at most 1.
+/// pixels; at most kDeepestBleed.
 double parameter_step(const Geometry& g, const Vector2d& uv, bool along_u, double distance) {
   const Vector2d du = g.derivative_u(uv.x(), uv.y()), dv = g.derivative_v(uv.x(), uv.y());
   const double area = std::abs(du.x() * dv.y() - du.y() * dv.x());
   const double other = along_u ? dv.norm() : du.norm();
-  return area > distance * other ? distance * other / area : 1;
+  return area * kDeepestBleed > distance * other ? distance * other / area : kDeepestBleed;
 }
 
 /// The point `distance` pixels inside side k at `s`.
@@ -75,6 +81,7 @@ class OutlineBuilder {
 
   SvgOutline build() {
     const BicubicBezier<Vector2d> part = sub_patch(bezier_, box_);
+    if (is_plain(part)) return build_plain(part);
     for (int k = 0; k < 4; ++k) {
       add_corner(k);
       if (has_flange(k)) {
@@ -88,6 +95,63 @@ class OutlineBuilder {
   }
 
  private:
+  /// True when moving the corners is bleed enough: the sides with bleed are about straight, and
+  /// the cell touches neither the outline nor a tear, across which paint must not go.
+  bool is_plain(const BicubicBezier<Vector2d>& part) const {
+    for (int k = 0; k < 4; ++k) {
+      if (has_flange(k) && chord_distance(side_curve(part, k)) > kPlainFlatness * bleed_) {
+        return false;
+      }
+      if (!is_smooth_seam(k)) return false;
+      const int before = (k + 3) & 3;
+      const bool at_vertex = on_border(before) && on_border(k);
+      if (at_vertex && (has_flange(before) || has_flange(k)) && !is_plain_vertex(4 * quad_ + k)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// True when all around the origin of half-edge h colours are smooth.
+  bool is_plain_vertex(int h) const {
+    const QuadMesh& mesh = layer_.mesh();
+    for (const int around : mesh.fan(mesh.origin(h))) {
+      if (mesh.twin(around) < 0 || mesh.is_tear(mesh.edge(around)) ||
+          layer_.opacity(QuadMesh::quad_of(around)) != layer_.opacity(quad_)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// The cell with its corners moved outward along its sides, on across those with bleed.
+  SvgOutline build_plain(const BicubicBezier<Vector2d>& part) {
+    std::array<PlaneCurve, 4> sides;
+    for (int k = 0; k < 4; ++k) sides[k] = side_curve(part, k);
+    for (int k = 0; k < 4; ++k) {
+      const int before = (k + 3) & 3;
+      Vector2d corner = sides[k][0];
+      if (has_flange(k)) corner += across(k, sides[before][3] - sides[before][0], sides[k]);
+      if (has_flange(before)) corner += across(before, sides[k][0] - sides[k][3], sides[before]);
+      add_point(corner);
+      if (!has_flange(k) && !is_hidden(k)) add_side(k, sides[k]);
+    }
+    outline_.pieces.erase(outline_.pieces.begin());
+    return std::move(outline_);
+  }
+
+  /// The step in the given direction that leads across side k as far as its bleed goes.
+  Vector2d across(int k, const Vector2d& direction, const PlaneCurve& side) const {
+    const Vector2d along = (side[3] - side[0]).normalized(), step = direction.normalized();
+    const auto [first, last] = side_range(k);
+    const double middle = 0.5 * (first + last);
+    const Vector2d seam = at(geometry_, on_side(k, middle, 0));
+    const double depth = std::min(bleed_, (beyond(k, middle) - seam).norm());
+    const double outward = step.x() * along.y() - step.y() * along.x();
+    if (!(outward > kLeastSlope)) return depth * Vector2d(along.y(), -along.x());
+    return depth / outward * step;
+  }
+
   /// Cells of one patch are painted from low to high parameters.
   void grow_within_patch() {
     box_ = cell_;

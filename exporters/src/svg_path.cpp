@@ -7,13 +7,6 @@
 namespace quadrille {
 namespace {
 
-using Point = Eigen::Matrix<long long, 2, 1>;
-
-Point to_units(const Eigen::Vector2d& p) {
-  return {std::llround(p.x() * SvgPathData::kUnitsPerPixel),
-          std::llround(p.y() * SvgPathData::kUnitsPerPixel)};
-}
-
 /// Extends the box by the points where a coordinate of the cubic has its extremes.
 void extend(Eigen::AlignedBox2d& box, const PlaneCurve& p) {
   const BicubicBezier<Eigen::Vector2d> strip{{p, p, p, p}};
@@ -31,6 +24,10 @@ void extend(Eigen::AlignedBox2d& box, const PlaneCurve& p) {
 }
 
 }  // namespace
+
+SvgPathData::Point SvgPathData::to_units(const Eigen::Vector2d& p) const {
+  return {std::llround(p.x() * units_), std::llround(p.y() * units_)};
+}
 
 void SvgPathData::append(const SvgOutline& outline) {
   const Point start = to_units(outline.start);
@@ -51,7 +48,7 @@ void SvgPathData::append(const SvgOutline& outline) {
 }
 
 Eigen::AlignedBox2d SvgPathData::bounds() const {
-  return {bounds_.min() / kUnitsPerPixel, bounds_.max() / kUnitsPerPixel};
+  return {bounds_.min() / units_, bounds_.max() / units_};
 }
 
 void SvgPathData::line_to(const Point& target) {

@@ -7,10 +7,10 @@
 
 namespace quadrille {
 
-/// Path data of outlines with coordinates as integers, in units of 1 / kUnitsPerPixel pixel.
+/// Path data of outlines with coordinates as integers, in units of a part of a pixel.
 class SvgPathData {
  public:
-  static constexpr int kUnitsPerPixel = 10;
+  explicit SvgPathData(int units_per_pixel) : units_(units_per_pixel) {}
 
   /// Appends one closed subpath.
   void append(const SvgOutline& outline);
@@ -26,6 +26,9 @@ class SvgPathData {
   void line_to(const Point& target);
   void cubic_to(const Point& control1, const Point& control2, const Point& end);
 
+  Point to_units(const Eigen::Vector2d& p) const;
+
+  int units_;  ///< per pixel
   std::string text_;
   char command_ = 0;
   Point at_ = Point::Zero();

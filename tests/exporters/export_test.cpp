@@ -29,7 +29,7 @@ VectorImage picture(bool opaque) {
 fs::path output(const std::string& name) { return test::scratch_dir() / ("export_" + name); }
 
 TEST(Export, KnowsTheEndingsThatAreAlwaysThere) {
-  for (const char* ending : {".quad", ".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".svg"}) {
+  for (const char* ending : {".quad", ".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".svg", ".svgz"}) {
     EXPECT_THAT(export_endings(), Contains(ending));
   }
 }

@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 fs::path output(const std::string& name) { return test::scratch_dir() / name; }
 
@@ -105,17 +106,19 @@ TEST(Svg, ALinearPictureIsAlmostExact) {
   }
 }
 
-TEST(Svg, LooksLikeTheRenderingWithinItsTolerance) {
+TEST(Svg, EachLevelLooksLikeTheRendering) {
   const VectorImage image = random_picture();
+  const double least[] = {32, 36, 40};
   double before = 0;
-  for (const double tolerance : {16.0, 8.0, 4.0, 2.0}) {
+  int k = 0;
+  for (const SvgLevel level : {SvgLevel::compact, SvgLevel::balanced, SvgLevel::faithful}) {
     SvgOptions options;
-    options.tolerance = tolerance;
+    options.level = level;
     const double psnr = difference(image, 3, "random", options).psnr;
-    // The root mean square error of a cell is at most tolerance / 2, and seams cost a little.
-    EXPECT_GT(psnr, 20 * std::log10(255 / (0.5 * tolerance)) - 1.5) << tolerance;
-    EXPECT_GT(psnr, before) << tolerance;
+    EXPECT_GT(psnr, least[k]) << k;
+    EXPECT_GT(psnr, before) << k;
     before = psnr;
+    ++k;
   }
 }
 
@@ -191,11 +194,24 @@ TEST(Svg, TheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(written[0], written[2]);
 }
 
-TEST(Svg, RefusesAToleranceOfZero) {
-  SvgOptions options;
-  options.tolerance = 0;
-  EXPECT_THROW(write_svg(random_picture(), output("zero.svg"), options), Error);
-  EXPECT_FALSE(fs::exists(output("zero.svg")));
+TEST(Svg, TearsDivideALayerIntoRegions) {
+  PatchMesh patches = testing::random_patches(6, 4, 60, 40, 4);
+  QuadMesh mesh = patches.mesh;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const int h = mesh.halfedge(e), twin = mesh.twin(h);
+    if (twin < 0) continue;
+    const bool left = QuadMesh::quad_of(h) % 6 < 3, other_left = QuadMesh::quad_of(twin) % 6 < 3;
+    if (left != other_left) mesh.edge_flags[e] |= kTearEdge;
+  }
+  PatchMesh torn = straight_patches(mesh);
+  testing::set_linear_colors(torn, Color(0.2f, 0.6f, 0.4f, 1));
+  const fs::path svg = output("regions.svg");
+  write_svg(testing::single_layer(std::move(torn), 60, 40), svg);
+  const std::string text = bytes_of(svg);
+  EXPECT_THAT(text, HasSubstr("<g id=\"layer-1\">"));
+  EXPECT_THAT(text, HasSubstr("<g id=\"region-1\">"));
+  EXPECT_THAT(text, HasSubstr("<g id=\"region-2\">"));
+  EXPECT_THAT(text, Not(HasSubstr("region-3")));
 }
 
 }  // namespace

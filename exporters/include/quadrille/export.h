@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,16 +21,21 @@ struct RasterFileOptions {
   std::array<float, 3> background = {1, 1, 1};
 };
 
+/// How closely an SVG file shows the picture. Each but the last has a tolerance t: colours are
+/// approximated more finely wherever that lowers the squared error (8-bit steps, summed over square
+/// pixels, mean of the channels) by t^2 or more for a byte of the compressed file.
 enum class SvgLevel {
-  balanced,  ///< gradients that every program draws
+  compact,   ///< t = 4
+  balanced,  ///< t = 1.5
+  faithful,  ///< t = 0.8, and coordinates to 1/16 of a pixel instead of 1/8
   inkscape,  ///< mesh gradients that Inkscape draws and edits; others show flat colours
 };
 
 struct SvgOptions {
   SvgLevel level = SvgLevel::balanced;
-  /// Colour error of a cell in 8-bit steps, at most half of it in the root mean square and at most
-  /// twice of it anywhere: 8 compact, 4 balanced, 2 faithful.
-  double tolerance = 4;
+  /// Most bytes of the file as written, 0 for any: where the level takes more, a larger tolerance,
+  /// up to 128, is searched that fits. None for the level inkscape.
+  std::uint64_t size_limit = 0;
   std::string title = "Quadrille picture";
 };
 
@@ -61,6 +67,8 @@ struct ExportOptions {
 /// bytes for any thread count. They throw Error{io_failure} when the file cannot be written.
 void write_raster_file(const VectorImage& image, const std::filesystem::path& path,
                        const RasterFileOptions& options = {}, const RunContext& context = {});
+/// Compressed by gzip when the path ends in .svgz. Throws Error{limit_exceeded} when not even the
+/// coarsest approximation keeps the size limit.
 void write_svg(const VectorImage& image, const std::filesystem::path& path,
                const SvgOptions& options = {}, const RunContext& context = {});
 void write_pdf(const VectorImage& image, const std::filesystem::path& path,
@@ -81,8 +89,8 @@ void write_vtu(const VectorImage& image, const std::filesystem::path& path,
 std::vector<std::string> export_endings();
 
 /// Chooses the writer by the ending of the path: .quad, .png, .jpg, .jpeg, .webp, .tif, .tiff,
-/// .dzi, .svg, .pdf, .glb, .vtu. Throws Error{unsupported_format} for any other, naming those it
-/// can write.
+/// .dzi, .svg, .svgz, .pdf, .glb, .vtu. Throws Error{unsupported_format} for any other, naming
+/// those it can write.
 void export_image(const VectorImage& image, const std::filesystem::path& path,
                   const ExportOptions& options = {}, const RunContext& context = {});
 

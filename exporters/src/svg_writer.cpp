@@ -1,0 +1,131 @@
+#include "svg_writer.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "arena_size.h"
+#include "svg_cell_writer.h"
+#include "svg_cells.h"
+#include "svg_layer.h"
+#include "svg_text.h"
+#include "svg_underlay.h"
+
+namespace quadrille {
+namespace {
+
+/// How far a cell goes on under what is painted later, in pixels of the picture: at scale 1 and
+/// above, a device pixel on a seam is then covered by the first cell alone.
+constexpr double kBleed = 1;
+/// Patches that are worked on together; bounds the memory.
+constexpr int kChunk = 512;
+/// Alpha within this of 0 or 1 counts as such.
+constexpr double kAlphaTolerance = 2.0 / 255;
+
+class SvgWriter {
+ public:
+  SvgWriter(const VectorImage& image, const SvgDetail& detail, const RunContext& context,
+            std::ostream& out)
+      : image_(image), detail_(detail), context_(context), out_(out), cells_(out, detail) {}
+
+  void write(const std::string& title) {
+    const std::string w = to_text(image_.width), h = to_text(image_.height);
+    out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+         << "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+            "xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" width=\""
+         << w << "\" height=\"" << h << "\" viewBox=\"0 0 " << w << ' ' << h << "\" role=\"img\">\n"
+         << "<title>" << xml_escaped(title) << "</title>\n"
+         << "<g transform=\"scale(" << to_text(1.0 / detail_.units_per_pixel) << ")\">\n";
+    for (const Layer& layer : image_.layers) write_layer(layer);
+    out_ << "</g>\n</svg>\n";
+  }
+
+ private:
+  void write_layer(const Layer& source) {
+    const SvgLayer layer(source, kAlphaTolerance);
+    const std::string id = "layer-" + std::to_string(++layer_count_);
+    out_ << "<g id=\"" << id << "\">\n";
+    const std::vector<int> translucent = layer.quads(PatchOpacity::translucent);
+    if (!translucent.empty()) write_masked(layer, translucent, id);
+    write_underlay(layer, id);
+    write_regions(layer, layer.quads(PatchOpacity::opaque));
+    out_ << "</g>\n";
+  }
+
+  /// Overlapping translucent cells would add up. So their alpha is painted in opaque grays, seams
+  /// under bleed as always, and is then the mask of their colours.
+  void write_masked(const SvgLayer& layer, const std::vector<int>& quads, const std::string& id) {
+    const double units = detail_.units_per_pixel;
+    out_ << "<mask id=\"" << id << "-alpha\" maskUnits=\"userSpaceOnUse\" x=\"0\" y=\"0\" width=\""
+         << to_text(image_.width * units) << "\" height=\"" << to_text(image_.height * units)
+         << "\">\n";
+    write_cells(layer, quads, CellPaint::alpha);
+    out_ << "</mask>\n<g id=\"" << id << "-translucent\" mask=\"url(#" << id << "-alpha)\">\n";
+    write_cells(layer, quads, CellPaint::color);
+    out_ << "</g>\n";
+  }
+
+  void write_underlay(const SvgLayer& layer, const std::string& id) {
+    const std::vector<UnderlayGroup> groups = underlay_groups(layer, image_.width, image_.height);
+    if (groups.empty()) return;
+    out_ << "<g id=\"" << id << "-underlay\">\n";
+    for (const UnderlayGroup& group : groups) {
+      CellFill fill;
+      fill.base.stops[0] = rounded_color(group.color);
+      for (const SvgOutline& outline : group.outlines) cells_.add(outline, fill);
+    }
+    cells_.finish();
+    out_ << "</g>\n";
+  }
+
+  void write_regions(const SvgLayer& layer, const std::vector<int>& quads) {
+    for (auto begin = quads.begin(); begin != quads.end();) {
+      const int region = layer.region(*begin);
+      const auto end =
+          std::find_if(begin, quads.end(), [&](int q) { return layer.region(q) != region; });
+      out_ << "<g id=\"region-" << ++region_count_ << "\">\n";
+      write_cells(layer, {begin, end}, CellPaint::color);
+      out_ << "</g>\n";
+      begin = end;
+    }
+  }
+
+  void write_cells(const SvgLayer& layer, const std::vector<int>& quads, CellPaint paint) {
+    const int count = static_cast<int>(quads.size());
+    for (int begin = 0; begin < count; begin += kChunk) {
+      const int end = std::min(begin + kChunk, count);
+      std::vector<std::vector<SvgCell>> painted(end - begin);
+      arena_.execute([&] {
+        tbb::parallel_for(begin, end, [&](int i) {
+          painted[i - begin] = divide_into_cells(layer, quads[i], paint, detail_, kBleed);
+        });
+      });
+      for (const auto& patch : painted) {
+        for (const SvgCell& cell : patch) cells_.add(cell.outline, cell.fill);
+      }
+      if (paint == CellPaint::color) painted_ += end - begin;
+      context_.progress("write SVG", double(painted_) / image_.patch_count());
+    }
+    cells_.finish();
+  }
+
+  const VectorImage& image_;
+  const SvgDetail& detail_;
+  const RunContext& context_;
+  std::ostream& out_;
+  SvgCellWriter cells_;
+  tbb::task_arena arena_{arena_size(context_)};
+  int layer_count_ = 0, region_count_ = 0, painted_ = 0;
+};
+
+}  // namespace
+
+void write_svg_text(const VectorImage& image, const std::string& title, const SvgDetail& detail,
+                    const RunContext& context, std::ostream& out) {
+  SvgWriter(image, detail, context, out).write(title);
+}
+
+}  // namespace quadrille
