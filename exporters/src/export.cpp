@@ -33,7 +33,7 @@ const Format kFormats[] = {
     {".svg",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
         const RunContext& context) { write_svg(image, path, options.svg, context); }},
-#ifdef QUADRILLE_HAS_CAIRO
+#ifdef QUADRILLE_HAS_PDF
     {".pdf",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
         const RunContext& context) { write_pdf(image, path, options.pdf, context); }},

@@ -1,0 +1,226 @@
+#include "pdf_cells.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "quadrille/error.h"
+
+namespace quadrille {
+namespace {
+
+/// A patch is looked at in kSamples x kSamples points, the middles of equal parts; every number of
+/// cells divides it.
+constexpr int kSamples = 24;
+constexpr int kCounts[] = {1, 2, 3, 4, 6, 8};
+constexpr int kCountCount = static_cast<int>(std::size(kCounts));
+/// Cells are not made shorter than this, in pixels of the picture.
+constexpr double kSmallestSide = 1;
+
+using Samples = Eigen::Matrix<float, kSamples, kSamples>;  ///< (u, v)
+using Nodes = Eigen::MatrixXf;                             ///< (u, v)
+
+/// Piecewise linear functions over `count` equal parts of [0, 1], at the samples.
+struct HatBasis {
+  Eigen::Matrix<float, kSamples, Eigen::Dynamic> hats;
+  Eigen::Matrix<float, Eigen::Dynamic, kSamples> fit;          ///< samples to nodes, least squares
+  Eigen::Matrix<float, kSamples, Eigen::Dynamic> orthonormal;  ///< of the same span
+
+  explicit HatBasis(int count) {
+    Eigen::MatrixXd h = Eigen::MatrixXd::Zero(kSamples, count + 1);
+    for (int s = 0; s < kSamples; ++s) {
+      const double t = (s + 0.5) / kSamples * count;
+      const int cell = static_cast<int>(t);
+      h(s, cell) = 1 - (t - cell);
+      h(s, cell + 1) = t - cell;
+    }
+    const Eigen::LLT<Eigen::MatrixXd> factors(h.transpose() * h);
+    hats = h.cast<float>();
+    fit = factors.solve(h.transpose()).cast<float>();
+    orthonormal = factors.matrixL().solve(h.transpose()).transpose().cast<float>();
+  }
+};
+
+const HatBasis& basis(int index) {
+  static const std::array<HatBasis, kCountCount> all = [] {
+    return std::array<HatBasis, kCountCount>{HatBasis(kCounts[0]), HatBasis(kCounts[1]),
+                                             HatBasis(kCounts[2]), HatBasis(kCounts[3]),
+                                             HatBasis(kCounts[4]), HatBasis(kCounts[5])};
+  }();
+  return all[index];
+}
+
+/// The Bernstein polynomials at the samples.
+const Eigen::Matrix<float, kSamples, 4>& bernstein() {
+  static const Eigen::Matrix<float, kSamples, 4> values = [] {
+    Eigen::Matrix<float, kSamples, 4> b;
+    for (int s = 0; s < kSamples; ++s) {
+      const float t = (s + 0.5f) / kSamples, r = 1 - t;
+      b.row(s) << r * r * r, 3 * r * r * t, 3 * r * t * t, t * t * t;
+    }
+    return b;
+  }();
+  return values;
+}
+
+/// What the cells are to show, in 8-bit steps.
+struct Target {
+  std::array<Samples, 3> channel;
+  int channels = 3;
+  Samples weight;
+  bool weighted = false;
+};
+
+std::array<Samples, 4> sampled(const BicubicBezier<Color>& color, bool opaque) {
+  std::array<Samples, 4> samples;
+  for (int c = 0; c < (opaque ? 3 : 4); ++c) {
+    Eigen::Matrix4f control;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) control(i, j) = color.control[j][i][c];
+    }
+    samples[c] = (bernstein() * control * bernstein().transpose()).cwiseMax(0.0f).cwiseMin(1.0f);
+  }
+  if (opaque) samples[3].setOnes();
+  return samples;
+}
+
+/// Straight colour. Where there is next to no alpha it goes over into the patch's mean colour:
+/// nobody sees it, but the fit would follow it.
+void set_straight(Target& target, const std::array<Samples, 4>& samples) {
+  constexpr float kFaint = 0.02f;
+  const auto alpha = samples[3].array();
+  const float all = std::max(alpha.sum(), 1e-3f);
+  for (int c = 0; c < 3; ++c) {
+    const float mean = std::min(samples[c].sum() / all, 1.0f);
+    const auto share = kFaint * (1 - alpha).square();
+    target.channel[c] =
+        255 * ((samples[c].array() + share * mean) / (alpha + share).max(1e-6f)).min(1.0f);
+  }
+  target.weight = samples[3];
+  target.weighted = true;
+}
+
+Target target_of(const Layer& layer, int quad, ShadedQuantity quantity) {
+  const BicubicBezier<Color> color = to_bezier(ferguson_patch(layer.patches, quad).color);
+  const bool opaque = layer.patches.opaque;
+  const std::array<Samples, 4> samples = sampled(color, opaque);
+  Target target;
+  target.channels = channels_of(quantity);
+  if (quantity == ShadedQuantity::alpha) {
+    target.channel[0] = 255 * samples[3];
+  } else if (quantity == ShadedQuantity::color && !opaque) {
+    set_straight(target, samples);
+  } else {
+    for (int c = 0; c < 3; ++c) {
+      target.channel[c] = 255 * (samples[c].array() + 1 - samples[3].array()).min(1.0f).matrix();
+      if (opaque) target.channel[c] = 255 * samples[c];
+    }
+  }
+  return target;
+}
+
+/// Mean squared error of the fit for every pair of counts, colours not clamped, unweighted: what
+/// the orthogonal projection leaves of the samples.
+Eigen::Matrix<float, kCountCount, kCountCount> projection_errors(const Target& target) {
+  Eigen::Matrix<float, kCountCount, kCountCount> error;
+  error.setZero();
+  for (int c = 0; c < target.channels; ++c) {
+    const Samples centred = target.channel[c].array() - target.channel[c].mean();
+    const float whole = centred.squaredNorm();
+    for (int i = 0; i < kCountCount; ++i) {
+      const Eigen::MatrixXf along_u = basis(i).orthonormal.transpose() * centred;
+      for (int j = 0; j < kCountCount; ++j) {
+        const float kept = (along_u * basis(j).orthonormal).squaredNorm();
+        error(i, j) += std::max(whole - kept, 0.0f);
+      }
+    }
+  }
+  return error / float(target.channels * kSamples * kSamples);
+}
+
+struct Fit {
+  std::array<Nodes, 3> nodes;
+  double mean_squared = 0, largest = 0;
+};
+
+Fit fitted(const Target& target, int along_u, int along_v) {
+  const HatBasis &u = basis(along_u), &v = basis(along_v);
+  Fit fit;
+  for (int c = 0; c < target.channels; ++c) {
+    const Nodes nodes = u.fit * target.channel[c] * v.fit.transpose();
+    fit.nodes[c] = nodes.array().max(0.0f).min(255.0f).round();
+    Samples error = (u.hats * fit.nodes[c] * v.hats.transpose() - target.channel[c]).cwiseAbs();
+    if (target.weighted) error = error.cwiseProduct(target.weight);
+    fit.mean_squared += error.squaredNorm() / (target.channels * kSamples * kSamples);
+    fit.largest = std::max(fit.largest, double(error.maxCoeff()));
+  }
+  return fit;
+}
+
+/// Greatest index into kCounts with cells that are not too short.
+Divisions finest(const BicubicBezier<Eigen::Vector2d>& position) {
+  const auto index = [&](int side) {
+    const PlaneCurve a = side_curve(position, side), b = side_curve(position, side + 2);
+    const double length = std::max((a[3] - a[0]).norm(), (b[3] - b[0]).norm());
+    int most = 0;
+    while (most + 1 < kCountCount && kCounts[most] * kSmallestSide < length) ++most;
+    return most;
+  };
+  return {index(0), index(1)};
+}
+
+struct Candidate {
+  int u = 0, v = 0;
+  int cells() const { return kCounts[u] * kCounts[v]; }
+};
+
+/// All pairs of counts, those with few cells first.
+std::vector<Candidate> candidates(const Divisions& limit) {
+  std::vector<Candidate> all;
+  for (int i = 0; i <= limit.u; ++i) {
+    for (int j = 0; j <= limit.v; ++j) all.push_back({i, j});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cells() < b.cells(); });
+  return all;
+}
+
+PatchCells cells_of(const Fit& fit, const Candidate& chosen, int channels) {
+  PatchCells cells;
+  cells.count = {kCounts[chosen.u], kCounts[chosen.v]};
+  for (int j = 0; j <= cells.count.v; ++j) {
+    for (int i = 0; i <= cells.count.u; ++i) {
+      auto& node = cells.nodes.emplace_back();
+      for (int c = 0; c < channels; ++c) node[c] = static_cast<std::uint8_t>(fit.nodes[c](i, j));
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+void CellTable::add(int quad, const PatchCells& cells) {
+  counts_[quad] = {static_cast<std::uint8_t>(cells.count.u),
+                   static_cast<std::uint8_t>(cells.count.v)};
+  first_[quad] = nodes_.size();
+  nodes_.insert(nodes_.end(), cells.nodes.begin(), cells.nodes.end());
+}
+
+PatchCells fit_cells(const Layer& layer, int quad, ShadedQuantity quantity, double tolerance) {
+  const Target target = target_of(layer, quad, quantity);
+  const auto errors = projection_errors(target);
+  const Divisions limit = finest(to_bezier(placed_geometry(layer, quad)));
+  const double bound = 0.25 * tolerance * tolerance;
+  for (const Candidate& c : candidates(limit)) {
+    const bool last = c.u == limit.u && c.v == limit.v;
+    if (!last && !target.weighted && errors(c.u, c.v) > bound) continue;
+    const Fit fit = fitted(target, c.u, c.v);
+    if (last || (fit.mean_squared <= bound && fit.largest <= 2 * tolerance)) {
+      return cells_of(fit, c, target.channels);
+    }
+  }
+  throw Error(ErrorCode::numerical_failure, "no division of a patch was tried; report the picture");
+}
+
+}  // namespace quadrille
