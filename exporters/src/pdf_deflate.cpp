@@ -51,10 +51,6 @@ void RecordDeflater::end_row() {
 }
 
 std::string RecordDeflater::finish() {
-  if (!row_.empty()) {
-    row_.resize(row_bytes_, '\0');
-    end_row();
-  }
   run(stream_, {}, Z_FINISH, compressed_);
   return std::move(compressed_);
 }

@@ -18,7 +18,7 @@ class RecordDeflater {
   RecordDeflater& operator=(const RecordDeflater&) = delete;
 
   void add(std::span<const std::uint8_t> bytes);
-  /// Ends the stream and returns it; the last record is filled up with zeros, which readers ignore.
+  /// Ends the stream and returns it. What was added must fill whole rows of `record_bytes`.
   std::string finish();
 
  private:

@@ -21,14 +21,34 @@ class Visitor {
   std::vector<PatchVisit> run(int group) {
     std::vector<PatchVisit> visits;
     for (int start = 0; start < mesh_.quad_count(); ++start) {
-      if (visited_[start] || groups_.group[start] != group) continue;
-      std::optional<Arrival> arrival = Arrival{start, -1, 0};
-      while (arrival) arrival = visit(*arrival, visits);
+      if (groups_.group[start] != group || !reaches(start)) visited_[start] = 1;
     }
+    visit_all(visits);
+    for (int start = 0; start < mesh_.quad_count(); ++start) {
+      visited_[start] = groups_.group[start] != group || reaches(start);
+    }
+    visit_all(visits);
     return visits;
   }
 
  private:
+  void visit_all(std::vector<PatchVisit>& visits) {
+    for (int start = 0; start < mesh_.quad_count(); ++start) {
+      std::optional<Arrival> arrival;
+      if (!visited_[start]) arrival = Arrival{start, -1, 0};
+      while (arrival) arrival = visit(*arrival, visits);
+    }
+  }
+
+  /// True when the patch goes on beyond a side, where it may lie over others.
+  bool reaches(int quad) const {
+    for (int h = 4 * quad; h < 4 * quad + 4; ++h) {
+      const Across beyond = across(mesh_, groups_, h);
+      if (beyond == Across::open || beyond == Across::outside) return true;
+    }
+    return false;
+  }
+
   /// A patch, the side on which it is entered, and the end of that side where the first cell lies:
   /// 0 its first corner, 1 its second.
   struct Arrival {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "pdf_deflate.h"
 
@@ -30,6 +31,49 @@ GridPoint to_grid(const CoordinateGrid& grid, const Vector2d& p) {
   return {number(p.x(), grid.origin.x()), number(p.y(), grid.origin.y())};
 }
 
+/// Parameters (u, v) at `t` along a side of a patch.
+std::array<double, 2> on_side(int side, double t) {
+  switch (side) {
+    case 0:
+      return {t, 0};
+    case 1:
+      return {1, t};
+    case 2:
+      return {1 - t, 1};
+    default:
+      return {0, 1 - t};
+  }
+}
+
+/// How fast the patch moves away from its side, in pixels per parameter: the least of its ends and
+/// middle, or the most.
+std::array<double, 2> speed_from_side(const Geometry& g, int side) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const double t : {0.0, 0.5, 1.0}) {
+    const auto [u, v] = on_side(side, t);
+    const Vector2d du = g.derivative_u(u, v), dv = g.derivative_v(u, v);
+    const double along = side & 1 ? dv.norm() : du.norm();
+    const double area = std::abs(du.x() * dv.y() - du.y() * dv.x());
+    const double speed = along > 0 ? area / along : 0;
+    least = std::min(least, speed), most = std::max(most, speed);
+  }
+  return {least, most};
+}
+
+/// How far, in parameters, a patch goes on beyond a side where it is hidden or cut off: a pixel,
+/// but not beyond the patch that lies there.
+double reach(const Layer& layer, const PatchVisit& visit, const Geometry& g, int side) {
+  const auto [least, most] = speed_from_side(g, side);
+  const int twin = layer.patches.mesh.twin(4 * visit.quad + side);
+  double pixels = kReach;
+  if (twin >= 0) {
+    const Geometry beyond = placed_geometry(layer, QuadMesh::quad_of(twin));
+    pixels = std::min(pixels, speed_from_side(beyond, QuadMesh::corner_of(twin))[0]);
+    return std::min(pixels / std::max(most, 1e-9), kLongestReach);
+  }
+  return std::min(pixels / std::max(least, 1e-9), kLongestReach);
+}
+
 /// The parameters between which a patch is drawn.
 ParameterBox drawn_box(const Layer& layer, const PaintGroups& groups, const PatchVisit& visit,
                        const Geometry& g) {
@@ -45,21 +89,8 @@ ParameterBox drawn_box(const Layer& layer, const PaintGroups& groups, const Patc
       case Across::tangled:
         beyond[side] = 0;
         break;
-      default: {
-        const double u = side == 1   ? 1
-                         : side == 3 ? 0
-                                     : 0.5,
-                     v = side == 2   ? 1
-                         : side == 0 ? 0
-                                     : 0.5;
-        const Vector2d du = g.derivative_u(u, v), dv = g.derivative_v(u, v);
-        const double area = std::abs(du.x() * dv.y() - du.y() * dv.x());
-        const double along = side & 1 ? dv.norm() : du.norm();
-        beyond[side] = area * kLongestReach > kReach * along
-                           ? std::max(kReach * along / area, kOverlap)
-                           : kLongestReach;
-        break;
-      }
+      default:
+        beyond[side] = reach(layer, visit, g, side);
     }
   }
   return {-beyond[3], -beyond[0], 1 + beyond[1], 1 + beyond[2]};
@@ -116,7 +147,16 @@ class CoonsWriter {
     }
   }
 
-  std::string finish() { return out_.finish(); }
+  /// Readers take what fills up the last row of the predictor for patches. So it is made of some:
+  /// the last point, as often as it takes.
+  std::string finish() {
+    if (last_point_.empty()) return {};
+    std::vector<std::uint8_t> nothing = {0};
+    for (int k = 0; k < 12; ++k) nothing.insert(nothing.end(), last_point_.begin(), last_point_.end());
+    for (int k = 0; k < 4; ++k) nothing.insert(nothing.end(), last_color_.begin(), last_color_.end());
+    for (; written_ % record_bytes() != 0; written_ += nothing.size()) out_.add(nothing);
+    return out_.finish();
+  }
 
  private:
   DrawnCell drawn(int quad, const BicubicBezier<Vector2d>& bezier, const ParameterBox& box,
@@ -158,6 +198,10 @@ class CoonsWriter {
       record_.insert(record_.end(), color.begin(), color.begin() + channels_);
     }
     out_.add(record_);
+    written_ += record_.size();
+    const auto colors = record_.end() - 2 * channels_;
+    last_color_.assign(colors, colors + channels_);
+    last_point_.assign(colors - 2 * grid_.bits / 8, colors);
     if (exit >= 0) flag_ = (turn_ * (exit - entry)) & 3;
     turn_ = -turn_;
   }
@@ -177,6 +221,8 @@ class CoonsWriter {
   int channels_;
   RecordDeflater out_;
   std::vector<std::uint8_t> record_;
+  std::size_t written_ = 0;
+  std::vector<std::uint8_t> last_point_, last_color_;
   int turn_ = 1, flag_ = 0;
 };
 
