@@ -133,6 +133,14 @@ void declare_document_options(CLI::App& parser, DocumentOptions& options) {
       "write .quad documents bit for bit, some 15 times larger");
 }
 
+void declare_page_options(CLI::App& parser, PdfOptions& options) {
+  parser
+      .add_option("--dpi", options.dpi,
+                  "pixels of the picture per inch of the page, for .pdf, .ps and .eps")
+      ->check(positive_number())
+      ->capture_default_str();
+}
+
 CLI::Validator positive_number() {
   return CLI::Validator(
       [](const std::string& text) -> std::string {

@@ -8,6 +8,7 @@
 
 #include "observer.h"
 #include "quadrille/document.h"
+#include "quadrille/export.h"
 #include "quadrille/vectorize.h"
 
 namespace quadrille::cli {
@@ -50,6 +51,8 @@ void declare_output(CLI::App& parser, std::filesystem::path& output);
 
 /// --lossless, for `.quad` outputs.
 void declare_document_options(CLI::App& parser, DocumentOptions& options);
+/// --dpi, for `.pdf`, `.ps` and `.eps` outputs.
+void declare_page_options(CLI::App& parser, PdfOptions& options);
 
 /// Accepts finite numbers above 0.
 CLI::Validator positive_number();

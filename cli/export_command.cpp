@@ -13,6 +13,7 @@ struct ExportRequest {
   std::vector<std::filesystem::path> outputs;
   double scale = 1;
   DocumentOptions document;
+  PdfOptions page;
   RunOptions run;
 };
 
@@ -23,6 +24,7 @@ int run_export(const ExportRequest& request) {
   ExportOptions options;
   options.raster.scale = request.scale;
   options.document = request.document;
+  options.pdf = request.page;
   write_outputs(image, request.outputs, options, observer);
   return kSuccess;
 }
@@ -37,6 +39,7 @@ Action declare_export(CLI::App& parser) {
       ->check(positive_number())
       ->capture_default_str();
   declare_document_options(parser, request->document);
+  declare_page_options(parser, request->page);
   declare_run_options(parser, request->run);
   return [request] { return run_export(*request); };
 }

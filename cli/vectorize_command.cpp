@@ -23,6 +23,7 @@ struct VectorizeRequest {
   double scale = 1;
   std::optional<double> max_error;
   DocumentOptions document;
+  PdfOptions page;
   MeshOptions mesh;
   RunOptions run;
 };
@@ -74,6 +75,7 @@ int run_vectorize(const VectorizeRequest& request) {
   ExportOptions options;
   options.raster.scale = request.scale;
   options.document = request.document;
+  options.pdf = request.page;
   write_outputs(result.image, request.outputs, options, observer);
 
   if (request.report.empty() && request.run.verbosity() != Verbosity::verbose) return kSuccess;
@@ -108,6 +110,7 @@ Action declare_vectorize(CLI::App& parser) {
       ->check(positive_number())
       ->capture_default_str();
   declare_document_options(parser, request->document);
+  declare_page_options(parser, request->page);
   parser.add_option("--report", request->report, "write what the run measured as JSON")
       ->type_name("FILE.json");
   declare_run_options(parser, request->run);

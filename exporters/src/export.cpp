@@ -19,6 +19,13 @@ void raster(const VectorImage& image, const std::filesystem::path& path,
   write_raster_file(image, path, options.raster, context);
 }
 
+#ifdef QUADRILLE_HAS_PDF
+void postscript(const VectorImage& image, const std::filesystem::path& path,
+                const ExportOptions& options, const RunContext& context) {
+  write_postscript(image, path, options.pdf, context);
+}
+#endif
+
 const Format kFormats[] = {
     {".quad",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
@@ -37,6 +44,8 @@ const Format kFormats[] = {
     {".pdf",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
         const RunContext& context) { write_pdf(image, path, options.pdf, context); }},
+    {".ps", postscript},
+    {".eps", postscript},
 #endif
 #ifdef QUADRILLE_HAS_GLTF
     {".glb",

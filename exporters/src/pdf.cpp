@@ -28,7 +28,6 @@ class PdfBuilder {
   PdfBuilder(const VectorImage& image, const PdfOptions& options, const RunContext& context)
       : image_(image), options_(options), context_(context) {
     pdf_.emptyPDF();
-    // Soft masks ask for 1.4; object streams, which QPDFWriter makes, for 1.5.
   }
 
   std::shared_ptr<Buffer> build() {
@@ -104,6 +103,7 @@ class PdfBuilder {
                       Resources& resources) {
     std::string content;
     for (const PaintStep& step : steps) {
+      if (step.shading.empty()) continue;
       const std::string paint = resources.add_shading(stream(step.shading, grid)) + " sh\n";
       if (step.region.empty()) {
         content += paint;
@@ -159,20 +159,10 @@ class PdfBuilder {
   }
 
   Object stream(const CoonsShading& shading, const CoordinateGrid& grid) {
-    const bool gray = shading.channels == 1;
-    std::string decode = "[" + to_text(grid.origin.x()) + ' ' + to_text(grid.largest(0)) + ' ' +
-                         to_text(grid.origin.y()) + ' ' + to_text(grid.largest(1));
-    for (int c = 0; c < shading.channels; ++c) decode += " 0 1";
-    const std::string dictionary =
-        std::string("<< /ShadingType 6 /ColorSpace ") + (gray ? "/DeviceGray" : "/DeviceRGB") +
-        " /BitsPerFlag 8 /BitsPerComponent 8 /BitsPerCoordinate " +
-        to_text(static_cast<long long>(grid.bits)) + " /Decode " + decode + "] >>";
     Object object = Object::newStream(&pdf_);
-    object.replaceDict(Object::parse(dictionary));
-    object.replaceStreamData(
-        shading.data, Object::newName("/FlateDecode"),
-        Object::parse("<< /Predictor 12 /Columns " +
-                      to_text(static_cast<long long>(shading.record_bytes)) + " >>"));
+    object.replaceDict(Object::parse("<< " + shading_entries(shading, grid) + " >>"));
+    object.replaceStreamData(shading.data, Object::newName("/FlateDecode"),
+                             Object::parse(predictor(shading)));
     return object;
   }
 

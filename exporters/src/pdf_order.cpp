@@ -1,5 +1,6 @@
 #include "pdf_order.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace quadrille {
@@ -35,7 +36,7 @@ class Visitor {
   void visit_all(std::vector<PatchVisit>& visits) {
     for (int start = 0; start < mesh_.quad_count(); ++start) {
       std::optional<Arrival> arrival;
-      if (!visited_[start]) arrival = Arrival{start, -1, 0};
+      if (!visited_[start]) arrival = Arrival{start, -1};
       while (arrival) arrival = visit(*arrival, visits);
     }
   }
@@ -49,31 +50,27 @@ class Visitor {
     return false;
   }
 
-  /// A patch, the side on which it is entered, and the end of that side where the first cell lies:
-  /// 0 its first corner, 1 its second.
   struct Arrival {
-    int quad, entry, end;
+    int quad;
+    int entry;  ///< side on which the patch is entered, or -1
   };
 
-  /// The start corners that an arrival allows: both where the side is one cell long.
-  bool allows(const Arrival& a, int corner) const {
-    if (a.entry < 0) return true;
-    const int first = a.entry, second = (a.entry + 1) & 3;
-    if (count_along(cells_.count(a.quad), a.entry) == 1) return corner == first || corner == second;
-    return corner == (a.end == 0 ? first : second);
+  /// The start corners that an arrival allows: the ends of the side on which it comes.
+  static bool allows(const Arrival& a, int corner) {
+    return a.entry < 0 || corner == a.entry || corner == ((a.entry + 1) & 3);
   }
 
   std::optional<Arrival> visit(const Arrival& a, std::vector<PatchVisit>& visits) {
     visited_[a.quad] = 1;
-    PatchVisit best{a.quad, a.entry, -1, first_corner(a),
-                    cells_.count(a.quad).u >= cells_.count(a.quad).v};
+    const Divisions count = cells_.count(a.quad);
+    PatchVisit best{a.quad, a.entry, -1, std::max(a.entry, 0), count.u >= count.v};
     std::optional<Arrival> next;
     int fewest = 5;
     for (int corner = 0; corner < 4; ++corner) {
       if (!allows(a, corner)) continue;
       for (const bool rows_first : {true, false}) {
         PatchVisit way{a.quad, a.entry, -1, corner, rows_first};
-        const CellStep last = way.cells(cells_.count(a.quad)).back();
+        const CellStep last = way.cells(count).back();
         for (int side = 0; side < 4; ++side) {
           const std::optional<Arrival> there = across_side(a.quad, last, side);
           if (!there) continue;
@@ -87,27 +84,20 @@ class Visitor {
     return next;
   }
 
-  int first_corner(const Arrival& a) const {
-    for (int corner = 0;; ++corner) {
-      if (allows(a, corner)) return corner;
-    }
-  }
-
-  /// Where the way goes on when it leaves the patch from its last cell across that side.
+  /// Where the way goes on when it leaves the patch from its last cell across that side: only where
+  /// both patches have a single cell along it. Of several, one would share its side and the others
+  /// would not, and viewers could leave a gap between these.
   std::optional<Arrival> across_side(int quad, const CellStep& last, int side) const {
     const Divisions count = cells_.count(quad);
-    const int position = side & 1 ? last.j : last.i;
     const int depth = side & 1 ? last.i : last.j;
     const int border = side == 1 ? count.u - 1 : side == 2 ? count.v - 1 : 0;
     if (depth != border || (last.shares_entry && last.entry == side)) return {};
     const int h = 4 * quad + side;
-    if (across(mesh_, groups_, h) != Across::same) return {};
+    if (across(mesh_, groups_, h) != Across::same || count_along(count, side) != 1) return {};
     const int twin = mesh_.twin(h), other = QuadMesh::quad_of(twin);
-    const int its_side = QuadMesh::corner_of(twin), along = count_along(count, side);
-    if (visited_[other] || count_along(cells_.count(other), its_side) != along) return {};
-    // Sides 0 and 1 run with the parameters; the twin runs the other way.
-    const bool at_start = position == (side < 2 ? 0 : along - 1);
-    return Arrival{other, its_side, at_start ? 1 : 0};
+    const int its_side = QuadMesh::corner_of(twin);
+    if (visited_[other] || count_along(cells_.count(other), its_side) != 1) return {};
+    return Arrival{other, its_side};
   }
 
   /// Patches that could come after this one.

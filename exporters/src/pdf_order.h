@@ -26,9 +26,10 @@ struct PatchVisit {
   std::vector<CellStep> cells(const Divisions& count) const;
 };
 
-/// Visits every patch of a group once, from neighbour to neighbour across sides that both divide
-/// alike for as long as there is one: cells that share a side with the one before take a third
-/// fewer bytes.
+/// Visits every patch of a group once, from neighbour to neighbour across sides that neither
+/// divides for as long as there is one: cells that share a side with the one before take a third
+/// fewer bytes. Patches that reach beyond their edges come first, so that whatever they should not
+/// lie over is painted over them.
 std::vector<PatchVisit> visit_patches(const QuadMesh& mesh, const PaintGroups& groups, int group,
                                       const CellTable& cells);
 

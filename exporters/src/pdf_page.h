@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 
+#include "pdf_shading.h"
 #include "quadrille/export.h"
 
 namespace quadrille {
@@ -20,6 +21,11 @@ PageSize page_size(const VectorImage& image, const PdfOptions& options);
 
 /// The number without an exponent, which PDF does not know.
 std::string fixed(double number);
+
+/// The entries of a shading dictionary, without its data.
+std::string shading_entries(const CoonsShading& shading, const CoordinateGrid& grid);
+/// The parameters of the filter that inflates its data.
+std::string predictor(const CoonsShading& shading);
 
 /// True when layer `index` covers the whole page, so that the page itself cuts it off.
 bool fills_page(const VectorImage& image, std::size_t index);

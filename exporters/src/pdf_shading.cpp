@@ -13,9 +13,11 @@ namespace {
 using Eigen::Vector2d;
 using Geometry = BicubicHermite<Vector2d>;
 
-/// How far patches overlap their neighbours, in parameters, and reach beyond edges that are cut off
-/// or hidden, in pixels.
-constexpr double kOverlap = 1.0 / 32, kReach = 1, kLongestReach = 0.5;
+/// In pixels: how far patches overlap their neighbours, twice the step of the grid; how far they go
+/// on beyond the page, and beyond edges that are cut off with anti-aliasing or hidden.
+constexpr double kOverlap = 0.125, kBeyondPage = 0.25, kBeyondEdge = 0.75;
+/// The same in parameters of a patch, at most.
+constexpr double kWidestOverlap = 1.0 / 16, kWidestReach = 0.5;
 
 struct GridPoint {
   std::uint32_t x = 0, y = 0;
@@ -60,38 +62,44 @@ std::array<double, 2> speed_from_side(const Geometry& g, int side) {
   return {least, most};
 }
 
-/// How far, in parameters, a patch goes on beyond a side where it is hidden or cut off: a pixel,
-/// but not beyond the patch that lies there.
-double reach(const Layer& layer, const PatchVisit& visit, const Geometry& g, int side) {
+double parameters(double pixels, double speed, double most) {
+  return pixels < most * speed ? pixels / speed : most;
+}
+
+/// How far, in parameters, a patch goes on beyond a side where it is hidden or cut off: not beyond
+/// the patch that lies there.
+double reach(const Layer& layer, const PaintGroups& groups, int quad, const Geometry& g, int side) {
   const auto [least, most] = speed_from_side(g, side);
-  const int twin = layer.patches.mesh.twin(4 * visit.quad + side);
-  double pixels = kReach;
-  if (twin >= 0) {
-    const Geometry beyond = placed_geometry(layer, QuadMesh::quad_of(twin));
-    pixels = std::min(pixels, speed_from_side(beyond, QuadMesh::corner_of(twin))[0]);
-    return std::min(pixels / std::max(most, 1e-9), kLongestReach);
+  const int twin = layer.patches.mesh.twin(4 * quad + side);
+  if (twin < 0) {
+    return parameters(groups.open_border ? kBeyondPage : kBeyondEdge, least, kWidestReach);
   }
-  return std::min(pixels / std::max(least, 1e-9), kLongestReach);
+  const Geometry beyond = placed_geometry(layer, QuadMesh::quad_of(twin));
+  const double room = speed_from_side(beyond, QuadMesh::corner_of(twin))[0];
+  return parameters(std::min(kBeyondEdge, room), most, kWidestReach);
 }
 
 /// The parameters between which a patch is drawn.
 ParameterBox drawn_box(const Layer& layer, const PaintGroups& groups, const PatchVisit& visit,
-                       const Geometry& g) {
+                       const Divisions& count, const Geometry& g) {
   std::array<double, 4> beyond;
   for (int side = 0; side < 4; ++side) {
+    const double overlap = parameters(kOverlap, speed_from_side(g, side)[0], kWidestOverlap);
     switch (across(layer.patches.mesh, groups, 4 * visit.quad + side)) {
       case Across::same:
-        beyond[side] = side == visit.entry || side == visit.exit ? 0 : kOverlap;
+        beyond[side] = side == visit.entry || side == visit.exit ? 0 : overlap;
         break;
       case Across::smooth:
-        beyond[side] = kOverlap;
+        beyond[side] = overlap;
         break;
       case Across::tangled:
         beyond[side] = 0;
         break;
       default:
-        beyond[side] = reach(layer, visit, g, side);
+        beyond[side] = reach(layer, groups, visit.quad, g, side);
     }
+    // Colours go on as they come, but not farther than a cell.
+    beyond[side] = std::min(beyond[side], 1.0 / (side & 1 ? count.u : count.v));
   }
   return {-beyond[3], -beyond[0], 1 + beyond[1], 1 + beyond[2]};
 }
@@ -139,7 +147,7 @@ class CoonsWriter {
     const Divisions count = cells_.count(visit.quad);
     const Geometry geometry = placed_geometry(layer_, visit.quad);
     const BicubicBezier<Vector2d> bezier = to_bezier(geometry);
-    const ParameterBox box = drawn_box(layer_, groups_, visit, geometry);
+    const ParameterBox box = drawn_box(layer_, groups_, visit, count, geometry);
     const std::vector<CellStep> steps = visit.cells(count);
     for (std::size_t k = 0; k < steps.size(); ++k) {
       const int exit = k + 1 < steps.size() ? (steps[k + 1].entry + 2) & 3 : visit.exit;
@@ -152,8 +160,10 @@ class CoonsWriter {
   std::string finish() {
     if (last_point_.empty()) return {};
     std::vector<std::uint8_t> nothing = {0};
-    for (int k = 0; k < 12; ++k) nothing.insert(nothing.end(), last_point_.begin(), last_point_.end());
-    for (int k = 0; k < 4; ++k) nothing.insert(nothing.end(), last_color_.begin(), last_color_.end());
+    for (int k = 0; k < 12; ++k)
+      nothing.insert(nothing.end(), last_point_.begin(), last_point_.end());
+    for (int k = 0; k < 4; ++k)
+      nothing.insert(nothing.end(), last_color_.begin(), last_color_.end());
     for (; written_ % record_bytes() != 0; written_ += nothing.size()) out_.add(nothing);
     return out_.finish();
   }

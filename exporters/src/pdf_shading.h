@@ -35,8 +35,8 @@ struct CoonsShading {
 /// The cells of these visits. A patch with Adini's twists is the Coons patch of its sides, and so
 /// is any rectangle of its parameters: the geometry is exact up to the grid.
 ///
-/// Patches overlap by a thirty-second of their size, lest viewers leave gaps where neighbours are
-/// divided differently, and reach a pixel beyond tears and the outline, where regions cut them off.
+/// Patches overlap by an eighth of a pixel, lest viewers leave gaps where neighbours are divided
+/// differently, and go on beyond tears and the outline, where regions cut them off.
 CoonsShading coons_shading(const Layer& layer, const PaintGroups& groups,
                            const std::vector<PatchVisit>& visits, const CellTable& cells,
                            const CoordinateGrid& grid, ShadedQuantity quantity,
