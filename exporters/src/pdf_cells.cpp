@@ -4,33 +4,30 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-
-#include "quadrille/error.h"
+#include <optional>
 
 namespace quadrille {
 namespace {
 
-/// A patch is looked at in kSamples x kSamples points, the middles of equal parts; every number of
-/// cells divides it.
-constexpr int kSamples = 24;
-constexpr int kCounts[] = {1, 2, 3, 4, 6, 8};
-constexpr int kCountCount = static_cast<int>(std::size(kCounts));
 /// Cells are not made shorter than this, in pixels of the picture.
 constexpr double kSmallestSide = 1;
+constexpr int kCounts[] = {1, 2, 3, 4, 6, 8, 12, 24};
+constexpr int kCountCount = static_cast<int>(std::size(kCounts));
+/// Counts below this index are fitted to the coarse samples, all of them to the fine ones.
+constexpr int kCoarseCounts = 6, kCoarseSamples = 24, kFineSamples = 72;
 
-using Samples = Eigen::Matrix<float, kSamples, kSamples>;  ///< (u, v)
-using Nodes = Eigen::MatrixXf;                             ///< (u, v)
+using Samples = Eigen::MatrixXf;  ///< (u, v)
 
 /// Piecewise linear functions over `count` equal parts of [0, 1], at the samples.
 struct HatBasis {
-  Eigen::Matrix<float, kSamples, Eigen::Dynamic> hats;
-  Eigen::Matrix<float, Eigen::Dynamic, kSamples> fit;          ///< samples to nodes, least squares
-  Eigen::Matrix<float, kSamples, Eigen::Dynamic> orthonormal;  ///< of the same span
+  Eigen::MatrixXf hats;         ///< (sample, node)
+  Eigen::MatrixXf fit;          ///< samples to nodes, least squares
+  Eigen::MatrixXf orthonormal;  ///< of the same span
 
-  explicit HatBasis(int count) {
-    Eigen::MatrixXd h = Eigen::MatrixXd::Zero(kSamples, count + 1);
-    for (int s = 0; s < kSamples; ++s) {
-      const double t = (s + 0.5) / kSamples * count;
+  HatBasis(int samples, int count) {
+    Eigen::MatrixXd h = Eigen::MatrixXd::Zero(samples, count + 1);
+    for (int s = 0; s < samples; ++s) {
+      const double t = (s + 0.5) / samples * count;
       const int cell = static_cast<int>(t);
       h(s, cell) = 1 - (t - cell);
       h(s, cell + 1) = t - cell;
@@ -42,26 +39,28 @@ struct HatBasis {
   }
 };
 
-const HatBasis& basis(int index) {
-  static const std::array<HatBasis, kCountCount> all = [] {
-    return std::array<HatBasis, kCountCount>{HatBasis(kCounts[0]), HatBasis(kCounts[1]),
-                                             HatBasis(kCounts[2]), HatBasis(kCounts[3]),
-                                             HatBasis(kCounts[4]), HatBasis(kCounts[5])};
-  }();
-  return all[index];
+/// The points in which a patch is looked at, the middles of equal parts, and what is fitted there.
+struct SampleGrid {
+  Eigen::MatrixXf bernstein;  ///< (sample, polynomial)
+  std::vector<HatBasis> hats;
+
+  SampleGrid(int samples, int counts) : bernstein(samples, 4) {
+    for (int s = 0; s < samples; ++s) {
+      const float t = (float(s) + 0.5f) / float(samples), r = 1 - t;
+      bernstein.row(s) << r * r * r, 3 * r * r * t, 3 * r * t * t, t * t * t;
+    }
+    for (int i = 0; i < counts; ++i) hats.emplace_back(samples, kCounts[i]);
+  }
+};
+
+const SampleGrid& coarse_grid() {
+  static const SampleGrid grid(kCoarseSamples, kCoarseCounts);
+  return grid;
 }
 
-/// The Bernstein polynomials at the samples.
-const Eigen::Matrix<float, kSamples, 4>& bernstein() {
-  static const Eigen::Matrix<float, kSamples, 4> values = [] {
-    Eigen::Matrix<float, kSamples, 4> b;
-    for (int s = 0; s < kSamples; ++s) {
-      const float t = (s + 0.5f) / kSamples, r = 1 - t;
-      b.row(s) << r * r * r, 3 * r * r * t, 3 * r * t * t, t * t * t;
-    }
-    return b;
-  }();
-  return values;
+const SampleGrid& fine_grid() {
+  static const SampleGrid grid(kFineSamples, kCountCount);
+  return grid;
 }
 
 /// What the cells are to show, in 8-bit steps.
@@ -72,16 +71,18 @@ struct Target {
   bool weighted = false;
 };
 
-std::array<Samples, 4> sampled(const BicubicBezier<Color>& color, bool opaque) {
+std::array<Samples, 4> sampled(const SampleGrid& grid, const BicubicBezier<Color>& color,
+                               bool opaque) {
   std::array<Samples, 4> samples;
   for (int c = 0; c < (opaque ? 3 : 4); ++c) {
     Eigen::Matrix4f control;
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) control(i, j) = color.control[j][i][c];
     }
-    samples[c] = (bernstein() * control * bernstein().transpose()).cwiseMax(0.0f).cwiseMin(1.0f);
+    samples[c] =
+        (grid.bernstein * control * grid.bernstein.transpose()).cwiseMax(0.0f).cwiseMin(1.0f);
   }
-  if (opaque) samples[3].setOnes();
+  if (opaque) samples[3].setOnes(samples[0].rows(), samples[0].cols());
   return samples;
 }
 
@@ -101,10 +102,10 @@ void set_straight(Target& target, const std::array<Samples, 4>& samples) {
   target.weighted = true;
 }
 
-Target target_of(const Layer& layer, int quad, ShadedQuantity quantity) {
+Target target_of(const SampleGrid& grid, const Layer& layer, int quad, ShadedQuantity quantity) {
   const BicubicBezier<Color> color = to_bezier(ferguson_patch(layer.patches, quad).color);
   const bool opaque = layer.patches.opaque;
-  const std::array<Samples, 4> samples = sampled(color, opaque);
+  const std::array<Samples, 4> samples = sampled(grid, color, opaque);
   Target target;
   target.channels = channels_of(quantity);
   if (quantity == ShadedQuantity::alpha) {
@@ -122,37 +123,36 @@ Target target_of(const Layer& layer, int quad, ShadedQuantity quantity) {
 
 /// Mean squared error of the fit for every pair of counts, colours not clamped, unweighted: what
 /// the orthogonal projection leaves of the samples.
-Eigen::Matrix<float, kCountCount, kCountCount> projection_errors(const Target& target) {
-  Eigen::Matrix<float, kCountCount, kCountCount> error;
-  error.setZero();
+Eigen::MatrixXf projection_errors(const SampleGrid& grid, const Target& target) {
+  const auto counts = static_cast<Eigen::Index>(grid.hats.size());
+  Eigen::MatrixXf error = Eigen::MatrixXf::Zero(counts, counts);
   for (int c = 0; c < target.channels; ++c) {
     const Samples centred = target.channel[c].array() - target.channel[c].mean();
     const float whole = centred.squaredNorm();
-    for (int i = 0; i < kCountCount; ++i) {
-      const Eigen::MatrixXf along_u = basis(i).orthonormal.transpose() * centred;
-      for (int j = 0; j < kCountCount; ++j) {
-        const float kept = (along_u * basis(j).orthonormal).squaredNorm();
+    for (Eigen::Index i = 0; i < counts; ++i) {
+      const Eigen::MatrixXf along_u = grid.hats[i].orthonormal.transpose() * centred;
+      for (Eigen::Index j = 0; j < counts; ++j) {
+        const float kept = (along_u * grid.hats[j].orthonormal).squaredNorm();
         error(i, j) += std::max(whole - kept, 0.0f);
       }
     }
   }
-  return error / float(target.channels * kSamples * kSamples);
+  return error / float(target.channels * target.channel[0].size());
 }
 
 struct Fit {
-  std::array<Nodes, 3> nodes;
+  std::array<Eigen::MatrixXf, 3> nodes;  ///< (u, v)
   double mean_squared = 0, largest = 0;
 };
 
-Fit fitted(const Target& target, int along_u, int along_v) {
-  const HatBasis &u = basis(along_u), &v = basis(along_v);
+Fit fitted(const Target& target, const HatBasis& u, const HatBasis& v) {
   Fit fit;
   for (int c = 0; c < target.channels; ++c) {
-    const Nodes nodes = u.fit * target.channel[c] * v.fit.transpose();
+    const Eigen::MatrixXf nodes = u.fit * target.channel[c] * v.fit.transpose();
     fit.nodes[c] = nodes.array().max(0.0f).min(255.0f).round();
     Samples error = (u.hats * fit.nodes[c] * v.hats.transpose() - target.channel[c]).cwiseAbs();
     if (target.weighted) error = error.cwiseProduct(target.weight);
-    fit.mean_squared += error.squaredNorm() / (target.channels * kSamples * kSamples);
+    fit.mean_squared += error.squaredNorm() / double(target.channels * error.size());
     fit.largest = std::max(fit.largest, double(error.maxCoeff()));
   }
   return fit;
@@ -198,6 +198,23 @@ PatchCells cells_of(const Fit& fit, const Candidate& chosen, int channels) {
   return cells;
 }
 
+/// The cells found on this grid: without a fit when none within the limit is good enough, unless
+/// `last_resort`.
+std::optional<PatchCells> fit_on(const SampleGrid& grid, const Target& target,
+                                 const Divisions& limit, double tolerance, bool last_resort) {
+  const Eigen::MatrixXf errors = projection_errors(grid, target);
+  const double bound = 0.25 * tolerance * tolerance;
+  for (const Candidate& c : candidates(limit)) {
+    const bool last = last_resort && c.u == limit.u && c.v == limit.v;
+    if (!last && !target.weighted && errors(c.u, c.v) > bound) continue;
+    const Fit fit = fitted(target, grid.hats[c.u], grid.hats[c.v]);
+    if (last || (fit.mean_squared <= bound && fit.largest <= 2 * tolerance)) {
+      return cells_of(fit, c, target.channels);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 void CellTable::add(int quad, const PatchCells& cells) {
@@ -208,19 +225,16 @@ void CellTable::add(int quad, const PatchCells& cells) {
 }
 
 PatchCells fit_cells(const Layer& layer, int quad, ShadedQuantity quantity, double tolerance) {
-  const Target target = target_of(layer, quad, quantity);
-  const auto errors = projection_errors(target);
   const Divisions limit = finest(to_bezier(placed_geometry(layer, quad)));
-  const double bound = 0.25 * tolerance * tolerance;
-  for (const Candidate& c : candidates(limit)) {
-    const bool last = c.u == limit.u && c.v == limit.v;
-    if (!last && !target.weighted && errors(c.u, c.v) > bound) continue;
-    const Fit fit = fitted(target, c.u, c.v);
-    if (last || (fit.mean_squared <= bound && fit.largest <= 2 * tolerance)) {
-      return cells_of(fit, c, target.channels);
-    }
-  }
-  throw Error(ErrorCode::numerical_failure, "no division of a patch was tried; report the picture");
+  const Divisions coarse{std::min(limit.u, kCoarseCounts - 1),
+                         std::min(limit.v, kCoarseCounts - 1)};
+  const bool enough = coarse.u == limit.u && coarse.v == limit.v;
+  const SampleGrid& grid = coarse_grid();
+  const auto cells =
+      fit_on(grid, target_of(grid, layer, quad, quantity), coarse, tolerance, enough);
+  if (cells) return *cells;
+  const SampleGrid& fine = fine_grid();
+  return *fit_on(fine, target_of(fine, layer, quad, quantity), limit, tolerance, true);
 }
 
 }  // namespace quadrille
