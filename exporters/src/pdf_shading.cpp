@@ -141,7 +141,33 @@ class CoonsWriter {
         channels_(channels),
         out_(record_bytes()) {}
 
-  int record_bytes() const { return 1 + 16 * grid_.bits / 8 + 2 * channels_; }
+  int record_bytes() const { return 1 + 8 * point_bytes() + 2 * channels_; }
+
+  void add_all(const std::vector<PatchVisit>& visits, const std::function<void(double)>& progress) {
+    constexpr std::size_t kPerReport = 1024;
+    for (std::size_t i = 0; i < visits.size(); ++i) {
+      if (i % kPerReport == 0) progress(double(i) / double(visits.size()));
+      if (i == 0) fillers_ = fillers(visits);
+      add(visits[i]);
+    }
+  }
+
+  std::string finish() { return out_.finish(); }
+
+ private:
+  int point_bytes() const { return 2 * grid_.bits / 8; }
+
+  /// Readers take whatever fills up the last row of the predictor for patches. So rows are filled
+  /// by some: points, before the first patch, which hides them. A patch that shares no side takes
+  /// four points and two colours more than a row.
+  int fillers(const std::vector<PatchVisit>& visits) const {
+    const auto shares = [](const PatchVisit& visit) { return visit.entry >= 0; };
+    const auto starts = visits.size() - std::count_if(visits.begin(), visits.end(), shares);
+    const std::size_t more = 4 * point_bytes() + 2 * channels_;
+    int count = 0;
+    while ((starts + count) * more % record_bytes() != 0) ++count;
+    return count;
+  }
 
   void add(const PatchVisit& visit) {
     const Divisions count = cells_.count(visit.quad);
@@ -155,20 +181,6 @@ class CoonsWriter {
     }
   }
 
-  /// Readers take what fills up the last row of the predictor for patches. So it is made of some:
-  /// the last point, as often as it takes.
-  std::string finish() {
-    if (last_point_.empty()) return {};
-    std::vector<std::uint8_t> nothing = {0};
-    for (int k = 0; k < 12; ++k)
-      nothing.insert(nothing.end(), last_point_.begin(), last_point_.end());
-    for (int k = 0; k < 4; ++k)
-      nothing.insert(nothing.end(), last_color_.begin(), last_color_.end());
-    for (; written_ % record_bytes() != 0; written_ += nothing.size()) out_.add(nothing);
-    return out_.finish();
-  }
-
- private:
   DrawnCell drawn(int quad, const BicubicBezier<Vector2d>& bezier, const ParameterBox& box,
                   const CellStep& step) const {
     const auto knot = [](int index, int count, double low, double high) {
@@ -207,13 +219,19 @@ class CoonsWriter {
       const auto& color = cell.corner[(entry + (turn_ > 0 ? k : 1 - k)) & 3];
       record_.insert(record_.end(), color.begin(), color.begin() + channels_);
     }
+    for (; fillers_ > 0; --fillers_) out_.add(point_patch());
     out_.add(record_);
-    written_ += record_.size();
-    const auto colors = record_.end() - 2 * channels_;
-    last_color_.assign(colors, colors + channels_);
-    last_point_.assign(colors - 2 * grid_.bits / 8, colors);
     if (exit >= 0) flag_ = (turn_ * (exit - entry)) & 3;
     turn_ = -turn_;
+  }
+
+  /// All of a patch in the first corner of the one in record_, which shares no side.
+  std::vector<std::uint8_t> point_patch() const {
+    const auto point = record_.begin() + 1, color = point + 12 * point_bytes();
+    std::vector<std::uint8_t> patch = {0};
+    for (int k = 0; k < 12; ++k) patch.insert(patch.end(), point, point + point_bytes());
+    for (int k = 0; k < 4; ++k) patch.insert(patch.end(), color, color + channels_);
+    return patch;
   }
 
   void add_point(const GridPoint& p) {
@@ -231,8 +249,7 @@ class CoonsWriter {
   int channels_;
   RecordDeflater out_;
   std::vector<std::uint8_t> record_;
-  std::size_t written_ = 0;
-  std::vector<std::uint8_t> last_point_, last_color_;
+  int fillers_ = 0;
   int turn_ = 1, flag_ = 0;
 };
 
@@ -262,11 +279,8 @@ CoonsShading coons_shading(const Layer& layer, const PaintGroups& groups,
   shading.channels = channels_of(quantity);
   CoonsWriter writer(layer, groups, cells, grid, shading.channels);
   shading.record_bytes = writer.record_bytes();
-  constexpr std::size_t kPerReport = 1024;
-  for (std::size_t i = 0; i < visits.size(); ++i) {
-    if (i % kPerReport == 0) progress(double(i) / visits.size());
-    writer.add(visits[i]);
-  }
+  if (visits.empty()) return shading;
+  writer.add_all(visits, progress);
   shading.data = writer.finish();
   return shading;
 }
