@@ -97,7 +97,26 @@ class Visitor {
     const int twin = mesh_.twin(h), other = QuadMesh::quad_of(twin);
     const int its_side = QuadMesh::corner_of(twin);
     if (visited_[other] || count_along(cells_.count(other), its_side) != 1) return {};
+    const int far = (side + 1) & 3, its_far = (its_side + 1) & 3;
+    if (!look_alike(corner_color(quad, side), corner_color(other, its_far)) ||
+        !look_alike(corner_color(quad, far), corner_color(other, its_side))) {
+      return {};
+    }
     return Arrival{other, its_side};
+  }
+
+  const CellTable::Node& corner_color(int quad, int corner) const {
+    const Divisions count = cells_.count(quad);
+    return cells_.node(quad, is_right(corner) ? count.u : 0, is_low(corner) ? count.v : 0);
+  }
+
+  /// The colours are fitted patch by patch, so that neighbours' differ at a corner that they share.
+  static bool look_alike(const CellTable::Node& a, const CellTable::Node& b) {
+    constexpr int kMost = 2;  // 8-bit steps
+    for (int c = 0; c < 3; ++c) {
+      if (std::abs(a[c] - b[c]) > kMost) return false;
+    }
+    return true;
   }
 
   /// Patches that could come after this one.
