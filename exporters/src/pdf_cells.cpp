@@ -14,9 +14,14 @@ constexpr double kSmallestSide = 1;
 constexpr int kCounts[] = {1, 2, 3, 4, 6, 8, 12, 24};
 constexpr int kCountCount = static_cast<int>(std::size(kCounts));
 /// Counts below this index are fitted to the coarse samples, all of them to the fine ones.
-constexpr int kCoarseCounts = 6, kCoarseSamples = 24, kFineSamples = 72;
+constexpr int kCoarseCounts = 6, kCoarseSamples = 24 + 2, kFineSamples = 72 + 2;
 
 using Samples = Eigen::MatrixXf;  ///< (u, v)
+
+/// Sample `s` of the ends of [0, 1] and the middles of equal parts.
+double sample_position(int s, int samples) {
+  return std::clamp((s - 0.5) / (samples - 2), 0.0, 1.0);
+}
 
 /// Piecewise linear functions over `count` equal parts of [0, 1], at the samples.
 struct HatBasis {
@@ -27,8 +32,8 @@ struct HatBasis {
   HatBasis(int samples, int count) {
     Eigen::MatrixXd h = Eigen::MatrixXd::Zero(samples, count + 1);
     for (int s = 0; s < samples; ++s) {
-      const double t = (s + 0.5) / samples * count;
-      const int cell = static_cast<int>(t);
+      const double t = sample_position(s, samples) * count;
+      const int cell = std::min(static_cast<int>(t), count - 1);
       h(s, cell) = 1 - (t - cell);
       h(s, cell + 1) = t - cell;
     }
@@ -39,14 +44,14 @@ struct HatBasis {
   }
 };
 
-/// The points in which a patch is looked at, the middles of equal parts, and what is fitted there.
+/// The points in which a patch is looked at, and what is fitted there.
 struct SampleGrid {
   Eigen::MatrixXf bernstein;  ///< (sample, polynomial)
   std::vector<HatBasis> hats;
 
   SampleGrid(int samples, int counts) : bernstein(samples, 4) {
     for (int s = 0; s < samples; ++s) {
-      const float t = (float(s) + 0.5f) / float(samples), r = 1 - t;
+      const float t = static_cast<float>(sample_position(s, samples)), r = 1 - t;
       bernstein.row(s) << r * r * r, 3 * r * r * t, 3 * r * t * t, t * t * t;
     }
     for (int i = 0; i < counts; ++i) hats.emplace_back(samples, kCounts[i]);

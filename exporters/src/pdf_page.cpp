@@ -12,7 +12,7 @@ void check_page_options(const PdfOptions& options) {
   if (good(options.dpi) && good(options.tolerance)) return;
   throw Error(ErrorCode::invalid_argument, "the PDF options dpi = " + to_text(options.dpi) +
                                                " and tolerance = " + to_text(options.tolerance) +
-                                               " must be positive numbers; use 96 and 4");
+                                               " must be positive numbers; use 96 and 2");
 }
 
 PageSize page_size(const VectorImage& image, const PdfOptions& options) {

@@ -32,7 +32,7 @@ struct PdfOptions {
   double dpi = 96;  ///< source pixels per inch; decides the page size
   /// Colour error of a patch in 8-bit steps, at most half of it in the root mean square and at most
   /// twice of it anywhere, but for details below a pixel.
-  double tolerance = 3;
+  double tolerance = 2;
   std::string title = "Quadrille picture";
 };
 
