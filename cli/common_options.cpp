@@ -144,8 +144,7 @@ void declare_svg_options(CLI::App& parser, SvgOptions& options) {
           "--svg-level", [&](const std::string& name) { options.level = kLevels.at(name); },
           "how closely .svg files show the picture, at the price of their size: compact, balanced "
           "or faithful; or inkscape: mesh gradients to edit in Inkscape, of which other programs "
-          "show "
-          "flat colours")
+          "show flat colours")
       ->check(CLI::IsMember({"compact", "balanced", "faithful", "inkscape"}))
       ->default_str("balanced");
   parser
@@ -158,6 +157,14 @@ void declare_svg_options(CLI::App& parser, SvgOptions& options) {
           "tolerance that fits")
       ->check(CLI::Range(1.0, 1e9))
       ->type_name("KB");
+}
+
+void declare_page_options(CLI::App& parser, PdfOptions& options) {
+  parser
+      .add_option("--dpi", options.dpi,
+                  "pixels of the picture per inch of the page, for .pdf, .ps and .eps")
+      ->check(positive_number())
+      ->capture_default_str();
 }
 
 CLI::Validator positive_number() {

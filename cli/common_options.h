@@ -51,6 +51,8 @@ void declare_output(CLI::App& parser, std::filesystem::path& output);
 
 /// --lossless, for `.quad` outputs.
 void declare_document_options(CLI::App& parser, DocumentOptions& options);
+/// --dpi, for `.pdf`, `.ps` and `.eps` outputs.
+void declare_page_options(CLI::App& parser, PdfOptions& options);
 
 /// --svg-level and --svg-size-limit.
 void declare_svg_options(CLI::App& parser, SvgOptions& options);

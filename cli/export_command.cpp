@@ -14,6 +14,7 @@ struct ExportRequest {
   double scale = 1;
   DocumentOptions document;
   SvgOptions svg;
+  PdfOptions page;
   RunOptions run;
 };
 
@@ -25,6 +26,7 @@ int run_export(const ExportRequest& request) {
   options.raster.scale = request.scale;
   options.document = request.document;
   options.svg = request.svg;
+  options.pdf = request.page;
   write_outputs(image, request.outputs, options, observer);
   return kSuccess;
 }
@@ -40,6 +42,7 @@ Action declare_export(CLI::App& parser) {
       ->capture_default_str();
   declare_document_options(parser, request->document);
   declare_svg_options(parser, request->svg);
+  declare_page_options(parser, request->page);
   declare_run_options(parser, request->run);
   return [request] { return run_export(*request); };
 }

@@ -24,6 +24,7 @@ struct VectorizeRequest {
   std::optional<double> max_error;
   DocumentOptions document;
   SvgOptions svg;
+  PdfOptions page;
   MeshOptions mesh;
   RunOptions run;
 };
@@ -76,6 +77,7 @@ int run_vectorize(const VectorizeRequest& request) {
   options.raster.scale = request.scale;
   options.document = request.document;
   options.svg = request.svg;
+  options.pdf = request.page;
   write_outputs(result.image, request.outputs, options, observer);
 
   if (request.report.empty() && request.run.verbosity() != Verbosity::verbose) return kSuccess;
@@ -111,6 +113,7 @@ Action declare_vectorize(CLI::App& parser) {
       ->capture_default_str();
   declare_document_options(parser, request->document);
   declare_svg_options(parser, request->svg);
+  declare_page_options(parser, request->page);
   parser.add_option("--report", request->report, "write what the run measured as JSON")
       ->type_name("FILE.json");
   declare_run_options(parser, request->run);

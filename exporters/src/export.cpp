@@ -24,6 +24,13 @@ void svg(const VectorImage& image, const std::filesystem::path& path, const Expo
   write_svg(image, path, options.svg, context);
 }
 
+#ifdef QUADRILLE_HAS_PDF
+void postscript(const VectorImage& image, const std::filesystem::path& path,
+                const ExportOptions& options, const RunContext& context) {
+  write_postscript(image, path, options.pdf, context);
+}
+#endif
+
 const Format kFormats[] = {
     {".quad",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
@@ -37,10 +44,12 @@ const Format kFormats[] = {
     {".dzi", raster},
     {".svg", svg},
     {".svgz", svg},
-#ifdef QUADRILLE_HAS_CAIRO
+#ifdef QUADRILLE_HAS_PDF
     {".pdf",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
         const RunContext& context) { write_pdf(image, path, options.pdf, context); }},
+    {".ps", postscript},
+    {".eps", postscript},
 #endif
 #ifdef QUADRILLE_HAS_GLTF
     {".glb",

@@ -6,52 +6,207 @@
 #define POINTERHOLDER_TRANSITION 4
 #include <qpdf/Buffer.hh>
 #include <qpdf/QPDF.hh>
+#include <qpdf/QPDFPageDocumentHelper.hh>
+#include <qpdf/QPDFPageObjectHelper.hh>
 #include <qpdf/QPDFWriter.hh>
 
-#include "pdf_mesh.h"
+#include "pdf_layer.h"
+#include "pdf_page.h"
 #include "quadrille/atomic_file.h"
 #include "quadrille/error.h"
 #include "quadrille/export.h"
+#include "svg_text.h"
 
 namespace quadrille {
 namespace {
 
-/// The drawn PDF with its streams compressed, and without anything that changes from run to run.
-/// Made in memory, since QPDFWriter does not notice a full disk.
-std::shared_ptr<Buffer> compressed(const std::vector<unsigned char>& drawn,
-                                   const std::string& title) {
-  QPDF pdf;
-  pdf.setSuppressWarnings(true);
-  pdf.processMemoryFile("picture", reinterpret_cast<const char*>(drawn.data()), drawn.size());
-  QPDFObjectHandle info = pdf.makeIndirectObject(QPDFObjectHandle::newDictionary());
-  info.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(title));
-  info.replaceKey("/Producer", QPDFObjectHandle::newUnicodeString("Quadrille"));
-  pdf.getTrailer().replaceKey("/Info", info);
+using Object = QPDFObjectHandle;
 
-  QPDFWriter writer(pdf);
-  writer.setOutputMemory();
-  writer.setObjectStreamMode(qpdf_o_generate);
-  writer.setCompressStreams(true);
-  writer.setDeterministicID(true);
-  writer.write();
-  return writer.getBufferSharedPointer();
-}
+/// Builds the one page of the document.
+class PdfBuilder {
+ public:
+  PdfBuilder(const VectorImage& image, const PdfOptions& options, const RunContext& context)
+      : image_(image), options_(options), context_(context) {
+    pdf_.emptyPDF();
+  }
+
+  std::shared_ptr<Buffer> build() {
+    add_page();
+    add_metadata();
+    QPDFWriter writer(pdf_);
+    writer.setOutputMemory();
+    writer.setObjectStreamMode(qpdf_o_generate);
+    writer.setCompressStreams(true);
+    writer.setRecompressFlate(false);
+    writer.setDecodeLevel(qpdf_dl_none);
+    writer.setDeterministicID(true);
+    writer.write();
+    return writer.getBufferSharedPointer();
+  }
+
+ private:
+  Object indirect(const Object& object) { return pdf_.makeIndirectObject(object); }
+
+  void add_page() {
+    const PageSize size = page_size(image_, options_);
+    const std::string scale = fixed(size.scale);
+    std::string content = scale + " 0 0 -" + scale + " 0 " + fixed(size.height) + " cm\n";
+    for (std::size_t l = 0; l < image_.layers.size(); ++l) {
+      const PaintedLayer layer = paint_layer(
+          image_.layers[l], fills_page(image_, l), Transparency::soft_mask, options_.tolerance,
+          context_,
+          [&](double part) { context_.progress("write PDF", (l + part) / image_.layers.size()); });
+      content += painted(layer, resources_);
+    }
+    Object page = indirect(Object::newDictionary());
+    page.replaceKey("/Type", Object::newName("/Page"));
+    page.replaceKey("/MediaBox",
+                    Object::parse("[0 0 " + fixed(size.width) + ' ' + fixed(size.height) + ']'));
+    page.replaceKey("/Resources", resources_.dictionary);
+    page.replaceKey("/Contents", Object::newStream(&pdf_, content));
+    QPDFPageDocumentHelper(pdf_).addPage(QPDFPageObjectHelper(page), false);
+  }
+
+  /// Shadings and graphics states under the names that a content stream calls them by.
+  struct Resources {
+    Object dictionary = Object::parse("<< /Shading << >> /ExtGState << >> >>");
+    int shadings = 0, states = 0;
+
+    std::string add_shading(const Object& shading) {
+      const std::string name = "/S" + to_text(static_cast<long long>(shadings++));
+      dictionary.getKey("/Shading").replaceKey(name, shading);
+      return name;
+    }
+    std::string add_state(const Object& state) {
+      const std::string name = "/G" + to_text(static_cast<long long>(states++));
+      dictionary.getKey("/ExtGState").replaceKey(name, state);
+      return name;
+    }
+  };
+
+  std::string painted(const PaintedLayer& layer, Resources& resources) {
+    std::string content;
+    if (layer.masked) {
+      Resources inner;
+      std::string mask = painted(layer.alpha, layer.grid, inner);
+      if (!layer.opaque_region.empty()) mask += "1 g\n" + filled(layer.opaque_region);
+      content += "q\n" + resources.add_state(soft_mask(mask, inner)) + " gs\n";
+      // A group, since a soft mask inside of it takes the place of the one around it.
+      Resources group;
+      const std::string colors = painted(layer.color, layer.grid, group);
+      return content + colors_group(colors, group, resources) + "Q\n";
+    }
+    return painted(layer.color, layer.grid, resources);
+  }
+
+  std::string painted(const std::vector<PaintStep>& steps, const CoordinateGrid& grid,
+                      Resources& resources) {
+    std::string content;
+    for (const PaintStep& step : steps) {
+      if (step.shading.empty()) continue;
+      const std::string paint = resources.add_shading(stream(step.shading, grid)) + " sh\n";
+      if (step.region.empty()) {
+        content += paint;
+      } else {
+        Resources none;
+        const Object state = soft_mask("1 g\n" + filled(step.region), none);
+        content += "q\n" + resources.add_state(state) + " gs\n" + paint + "Q\n";
+      }
+    }
+    return content;
+  }
+
+  static std::string filled(const std::string& path) {
+    const std::string scale = to_text(1.0 / PaintedLayer::kPathUnits);
+    return "q\n" + scale + " 0 0 " + scale + " 0 0 cm\n" + path + "f\nQ\n";
+  }
+
+  std::string page_rectangle() const {
+    return "0 0 " + to_text(image_.width) + ' ' + to_text(image_.height);
+  }
+
+  /// A transparency group over the page.
+  Object group(const std::string& content, const Resources& resources, const char* color_space) {
+    Object form = Object::newStream(&pdf_, content);
+    Object dictionary = form.getDict();
+    dictionary.replaceKey("/Type", Object::newName("/XObject"));
+    dictionary.replaceKey("/Subtype", Object::newName("/Form"));
+    dictionary.replaceKey("/BBox", Object::parse('[' + page_rectangle() + ']'));
+    dictionary.replaceKey("/Group", Object::parse(std::string("<< /S /Transparency /I true /CS ") +
+                                                  color_space + " >>"));
+    dictionary.replaceKey("/Resources", resources.dictionary);
+    return form;
+  }
+
+  /// Shows the page through the luminosity of the content, painted on black.
+  Object soft_mask(const std::string& content, const Resources& resources) {
+    const std::string black = "0 g\n" + page_rectangle() + " re f\n";
+    Object mask = Object::parse("<< /Type /Mask /S /Luminosity >>");
+    mask.replaceKey("/G", group(black + content, resources, "/DeviceGray"));
+    Object state = Object::parse("<< /Type /ExtGState >>");
+    state.replaceKey("/SMask", mask);
+    return indirect(state);
+  }
+
+  std::string colors_group(const std::string& content, const Resources& inner,
+                           Resources& resources) {
+    Object& dictionary = resources.dictionary;
+    if (!dictionary.hasKey("/XObject")) dictionary.replaceKey("/XObject", Object::newDictionary());
+    Object forms = dictionary.getKey("/XObject");
+    const std::string name = "/F" + to_text(static_cast<long long>(forms.getKeys().size()));
+    forms.replaceKey(name, group(content, inner, "/DeviceRGB"));
+    return name + " Do\n";
+  }
+
+  Object stream(const CoonsShading& shading, const CoordinateGrid& grid) {
+    Object object = Object::newStream(&pdf_);
+    object.replaceDict(Object::parse("<< " + shading_entries(shading, grid) + " >>"));
+    object.replaceStreamData(shading.data, Object::newName("/FlateDecode"),
+                             Object::parse(predictor(shading)));
+    return object;
+  }
+
+  void add_metadata() {
+    Object info = indirect(Object::newDictionary());
+    info.replaceKey("/Title", Object::newUnicodeString(options_.title));
+    info.replaceKey("/Producer", Object::newUnicodeString("Quadrille"));
+    pdf_.getTrailer().replaceKey("/Info", info);
+    Object xmp = Object::newStream(&pdf_, xmp_packet(options_.title));
+    xmp.getDict().replaceKey("/Type", Object::newName("/Metadata"));
+    xmp.getDict().replaceKey("/Subtype", Object::newName("/XML"));
+    pdf_.getRoot().replaceKey("/Metadata", xmp);
+  }
+
+  static std::string xmp_packet(const std::string& title) {
+    return "<?xpacket begin=\"\xEF\xBB\xBF\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n"
+           "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\">\n"
+           "<rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">\n"
+           "<rdf:Description rdf:about=\"\" xmlns:dc=\"http://purl.org/dc/elements/1.1/\""
+           " xmlns:pdf=\"http://ns.adobe.com/pdf/1.3/\">\n"
+           "<dc:title><rdf:Alt><rdf:li xml:lang=\"x-default\">" +
+           xml_escaped(title) +
+           "</rdf:li></rdf:Alt></dc:title>\n"
+           "<pdf:Producer>Quadrille</pdf:Producer>\n"
+           "</rdf:Description>\n</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end=\"r\"?>\n";
+  }
+
+  QPDF pdf_;
+  const VectorImage& image_;
+  const PdfOptions& options_;
+  const RunContext& context_;
+  Resources resources_;
+};
 
 }  // namespace
 
 void write_pdf(const VectorImage& image, const std::filesystem::path& path,
                const PdfOptions& options, const RunContext& context) {
-  if (!(options.dpi > 0) || !std::isfinite(options.dpi) || !(options.tolerance > 0)) {
-    throw Error(ErrorCode::invalid_argument,
-                "the PDF options dpi = " + std::to_string(options.dpi) + " and tolerance = " +
-                    std::to_string(options.tolerance) + " must be positive; use 96 and 4");
-  }
-  const std::vector<unsigned char> drawn = draw_pdf(image, options, context);
+  check_page_options(options);
   std::shared_ptr<Buffer> bytes;
   try {
-    bytes = compressed(drawn, options.title);
-  } catch (const std::exception& error) {
-    throw Error(ErrorCode::numerical_failure, std::string("the drawn PDF cannot be compressed (") +
+    bytes = PdfBuilder(image, options, context).build();
+  } catch (const QPDFExc& error) {
+    throw Error(ErrorCode::numerical_failure, std::string("the PDF cannot be put together (") +
                                                   error.what() + "); report the picture");
   }
   write_stream_atomically(path, [&](std::ostream& file) {

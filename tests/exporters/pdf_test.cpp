@@ -106,6 +106,24 @@ TEST_F(Pdf, AConstantPictureIsExact) {
   EXPECT_LE(difference(image, output("constant.pdf"), 3).max_error, 1);
 }
 
+TEST_F(Pdf, LinearColorsAreExact) {
+  // Over straight edges they are bilinear in each patch, as the shading's are.
+  PatchMesh patches = testing::random_patches(5, 4, kWidth, kHeight, 1, {.curvature = 0});
+  const float w = static_cast<float>(kWidth), h = static_cast<float>(kHeight);
+  testing::set_linear_colors(patches, Color(0.1f, 0.9f, 0.4f, 1), Color(0.8f / w, 0, 0, 0),
+                             Color(0, -0.7f / h, 0, 0));
+  const VectorImage image = testing::single_layer(std::move(patches), kWidth, kHeight);
+  const fs::path pdf = output("linear.pdf"), stem = output("linear");
+  PdfOptions options;
+  options.tolerance = 1;
+  save(image, pdf, options);
+  ASSERT_EQ(test::run({"pdftocairo", "-png", "-singlefile", "-r", "288", pdf, stem}), 0);
+  RenderOptions as;
+  as.scale = 3;
+  // Twice the tolerance, and rounding to 8 bits here and in cairo.
+  EXPECT_LE(compare(load_image(stem.string() + ".png"), render(image, as)).max_error, 3);
+}
+
 TEST_F(Pdf, LooksLikeTheRenderingWithinItsTolerance) {
   const VectorImage image = random_picture();
   PdfOptions options;
@@ -135,6 +153,122 @@ TEST_F(Pdf, CoversThePageWithoutHoles) {
   }
 }
 
+TEST_F(Pdf, CoversThePageToItsBorder) {
+  const fs::path pdf = output("border.pdf"), stem = output("border");
+  save(random_picture(), pdf);
+  for (const int scale : {1, 2, 5}) {
+    ASSERT_EQ(test::run({"pdftocairo", "-png", "-transp", "-singlefile", "-r",
+                         std::to_string(96 * scale), pdf, stem}),
+              0);
+    const Raster drawn = load_image(stem.string() + ".png");
+    ASSERT_EQ(drawn.width, static_cast<int>(kWidth) * scale);
+    for (int y = 0; drawn.has_alpha() && y < drawn.height; ++y) {
+      for (int x = 0; x < drawn.width; ++x) ASSERT_EQ(drawn.pixel(x, y)[3], 1) << x << ' ' << y;
+    }
+  }
+}
+
+/// Black to the left of the middle, white to its right: torn from top to bottom, or down to the
+/// height where a tear ends inside the picture and the colours meet.
+VectorImage torn_picture(double end) {
+  constexpr int kColumns = 6, kRows = 4;
+  QuadMesh mesh = testing::lattice(kColumns, kRows, kWidth, kHeight);
+  const auto is_middle = [](const Eigen::Vector2d& p) { return p.x() == kWidth / 2; };
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const Eigen::Vector2d &a = mesh.vertices[mesh.origin(mesh.halfedge(e))],
+                          &b = mesh.vertices[mesh.tip(mesh.halfedge(e))];
+    const bool torn = is_middle(a) && is_middle(b) && std::max(a.y(), b.y()) <= end;
+    if (torn) mesh.edge_flags[e] |= kTearEdge;
+  }
+  PatchMesh patches = straight_patches(std::move(mesh));
+  for (int q = 0; q < patches.patch_count(); ++q) {
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::Vector2d& p = patches.mesh.vertices[patches.mesh.quads()[q][k]];
+      const bool meets = is_middle(p) && p.y() >= end && end < kHeight;
+      const float gray = meets ? 0.5f : q % kColumns < kColumns / 2 ? 0.0f : 1.0f;
+      patches.wedges[patches.wedge_of_corner[4 * q + k]].value = Color(gray, gray, gray, 1);
+    }
+  }
+  return testing::single_layer(std::move(patches), kWidth, kHeight);
+}
+
+TEST_F(Pdf, ATearStaysSharp) {
+  for (const double end : {kHeight, kHeight / 2}) {
+    const VectorImage image = torn_picture(end);
+    save(image, output("tear.pdf"));
+    constexpr int kScale = 3, kMiddle = static_cast<int>(kWidth) * kScale / 2;
+    const Raster drawn = drawn_by_poppler(output("tear.pdf"), kScale);
+    for (int y = 0; y < drawn.height / 4; ++y) {
+      ASSERT_LT(drawn.pixel(kMiddle - 2, y)[0], 0.02f) << y;
+      ASSERT_GT(drawn.pixel(kMiddle + 1, y)[0], 0.98f) << y;
+    }
+    EXPECT_GT(difference(image, output("tear.pdf"), kScale).psnr, 36) << end;
+  }
+}
+
+TEST_F(Pdf, HostileMeshesAreSound) {
+  std::vector<VectorImage> images;
+  images.push_back(random_picture(true, 1, 1));
+  images.push_back(random_picture(false, 4, 3));  // made fully transparent
+  for (Wedge& wedge : images.back().layers[0].patches.wedges) wedge = Wedge{};
+  for (const double share : {0.0, -1.5}) {  // an edge without length, folds
+    PatchMesh patches = testing::random_patches(6, 4, kWidth, kHeight, 8);
+    auto& vertices = patches.mesh.vertices;
+    vertices[16] = vertices[17] + share * (vertices[16] - vertices[17]);
+    for (auto& ends : patches.edge_tangents) ends[0] *= 3;
+    testing::set_random_colors(patches, 9);
+    images.push_back(testing::single_layer(std::move(patches), kWidth, kHeight));
+  }
+  images.push_back({kWidth, kHeight, {}, {}});
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    save(images[i], output("hostile.pdf"));
+    std::string log;
+    EXPECT_EQ(test::run({"qpdf", "--check", output("hostile.pdf")}, &log), 0) << i << log;
+    drawn_by_poppler(output("hostile.pdf"), 1);
+    export_image(images[i], output("hostile.ps"));
+  }
+}
+
+TEST_F(Pdf, AHundredThousandQuads) {
+  PatchMesh patches = straight_patches(testing::lattice(400, 250, 1600, 1000));
+  testing::set_linear_colors(patches, Color(0.2f, 0.3f, 0.4f, 1), Color(2e-4f, 0, 0, 0));
+  const VectorImage image = testing::single_layer(std::move(patches), 1600, 1000);
+  save(image, output("many.pdf"));
+  EXPECT_EQ(test::run({"qpdf", "--check", output("many.pdf")}), 0);
+  EXPECT_LT(fs::file_size(output("many.pdf")), 3'000'000u);
+}
+
+TEST_F(Pdf, CancellingLeavesNoFile) {
+  RunContext context;
+  context.on_progress = [](const std::string&, double) { return false; };
+  for (const char* name : {"cancelled.pdf", "cancelled.ps"}) {
+    EXPECT_THROW(export_image(random_picture(), output(name), {}, context), Error);
+    EXPECT_FALSE(fs::exists(output(name)));
+  }
+}
+
+TEST_F(Pdf, PostScriptShowsTheSameOverWhite) {
+  if (!test::has_program("gs")) GTEST_SKIP() << "no ghostscript";
+  for (const bool opaque : {true, false}) {
+    for (const std::string ending : {".ps", ".eps"}) {
+      const VectorImage image = random_picture(opaque);
+      const fs::path file = output("script" + ending), png = output("script.png");
+      export_image(image, file);
+      std::string log;
+      ASSERT_EQ(test::run({"gs", "-q", "-dNOPAUSE", "-dBATCH", "-dSAFER", "-dEPSCrop", "-r288",
+                           "-sDEVICE=png16m", "-sOutputFile=" + png.string(), file},
+                          &log),
+                0)
+          << log;
+      RenderOptions as;
+      as.scale = 3;
+      const Raster drawn = load_image(png);
+      ASSERT_EQ(drawn.width, 3 * static_cast<int>(kWidth));
+      EXPECT_GT(compare(drawn, render(image, as)).psnr, 36) << opaque << ending;
+    }
+  }
+}
+
 TEST_F(Pdf, TransparencyIsKept) {
   PatchMesh patches = testing::random_patches(9, 6, kWidth, kHeight, 3);
   const float w = static_cast<float>(kWidth);
@@ -146,7 +280,13 @@ TEST_F(Pdf, TransparencyIsKept) {
 }
 
 TEST_F(Pdf, APictureOfOneQuad) {
-  EXPECT_GT(difference(random_picture(true, 1, 1), output("one.pdf"), 4).psnr, 38);
+  const VectorImage image = random_picture(true, 1, 1);
+  const fs::path pdf = output("one.pdf"), stem = output("one");
+  save(image, pdf);
+  ASSERT_EQ(test::run({"pdftocairo", "-png", "-singlefile", "-r", "384", pdf, stem}), 0);
+  RenderOptions as;
+  as.scale = 4;
+  EXPECT_GT(compare(load_image(stem.string() + ".png"), render(image, as)).psnr, 38);
 }
 
 TEST_F(Pdf, TheSameBytesForAnyNumberOfThreadsAndAtAnyTime) {

@@ -39,11 +39,12 @@ struct SvgOptions {
   std::string title = "Quadrille picture";
 };
 
+/// For PDF and PostScript.
 struct PdfOptions {
   double dpi = 96;  ///< source pixels per inch; decides the page size
-  /// Colour error of a sub-patch in 8-bit steps, at most half of it in the root mean square and at
-  /// most twice of it anywhere.
-  double tolerance = 4;
+  /// Colour error of a patch in 8-bit steps, at most half of it in the root mean square and at most
+  /// twice of it anywhere, but for details below a pixel.
+  double tolerance = 2;
   std::string title = "Quadrille picture";
 };
 
@@ -71,8 +72,16 @@ void write_raster_file(const VectorImage& image, const std::filesystem::path& pa
 /// coarsest approximation keeps the size limit.
 void write_svg(const VectorImage& image, const std::filesystem::path& path,
                const SvgOptions& options = {}, const RunContext& context = {});
+/// One page of native Coons patch shadings (type 6): geometry exact to a sixteenth of a pixel,
+/// colours bilinear in the cells of each patch. Tears, outlines and alpha are soft masks,
+/// anti-aliased at any scale.
 void write_pdf(const VectorImage& image, const std::filesystem::path& path,
                const PdfOptions& options = {}, const RunContext& context = {});
+/// PostScript of language level 3, encapsulated where the path ends in .eps: the shadings of
+/// write_pdf(), their edges cut off without anti-aliasing. It knows no transparency: colours are
+/// put over white.
+void write_postscript(const VectorImage& image, const std::filesystem::path& path,
+                      const PdfOptions& options = {}, const RunContext& context = {});
 /// Triangles without T-junctions under an unlit texture per layer. 1 unit = 1 pixel, x to the
 /// right, y up, the picture's bottom left corner at the origin; layer k lies at z = k. Throws
 /// Error{invalid_argument} for a picture without patches or texels_per_pixel out of range.
@@ -89,8 +98,8 @@ void write_vtu(const VectorImage& image, const std::filesystem::path& path,
 std::vector<std::string> export_endings();
 
 /// Chooses the writer by the ending of the path: .quad, .png, .jpg, .jpeg, .webp, .tif, .tiff,
-/// .dzi, .svg, .svgz, .pdf, .glb, .vtu. Throws Error{unsupported_format} for any other, naming
-/// those it can write.
+/// .dzi, .svg, .svgz, .pdf, .ps, .eps, .glb, .vtu. Throws Error{unsupported_format} for any other,
+/// naming those it can write.
 void export_image(const VectorImage& image, const std::filesystem::path& path,
                   const ExportOptions& options = {}, const RunContext& context = {});
 

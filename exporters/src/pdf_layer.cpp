@@ -1,0 +1,142 @@
+#include "pdf_layer.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "arena_size.h"
+#include "patch_opacity.h"
+#include "pdf_region_path.h"
+
+namespace quadrille {
+namespace {
+
+/// Patches that are fitted together; bounds the memory.
+constexpr int kChunk = 512;
+
+class LayerPainter {
+ public:
+  LayerPainter(const Layer& layer, double tolerance, const RunContext& context,
+               const std::function<void(double)>& progress)
+      : layer_(layer),
+        tolerance_(tolerance),
+        arena_(arena_size(context)),
+        progress_(progress),
+        opacity_(patch_opacities(layer.patches, 0.5 * tolerance / 255)) {}
+
+  PaintedLayer run(bool fills_page, Transparency transparency) {
+    const QuadMesh& mesh = layer_.patches.mesh;
+    PaintedLayer painted;
+    painted.grid = grid_ = CoordinateGrid::covering(bounds());
+    painted.masked = transparency == Transparency::soft_mask && !all(PatchOpacity::opaque);
+
+    PaintGroups groups = paint_groups(mesh, where_not(PatchOpacity::transparent));
+    groups.open_border = fills_page || painted.masked;
+    groups.open_unpainted = painted.masked;
+    jobs_ = painted.masked ? 2 : 1;
+    const bool flatten = transparency == Transparency::over_white;
+    painted.color =
+        steps(groups, groups.count, flatten ? ShadedQuantity::over_white : ShadedQuantity::color);
+    if (painted.masked) paint_alpha(painted, fills_page);
+    return painted;
+  }
+
+ private:
+  /// What is opaque needs no shading: its outline filled says the same, sharply.
+  void paint_alpha(PaintedLayer& painted, bool fills_page) {
+    const QuadMesh& mesh = layer_.patches.mesh;
+    std::vector<char> opaque(opacity_.size()), translucent(opacity_.size());
+    for (std::size_t q = 0; q < opacity_.size(); ++q) {
+      opaque[q] = opacity_[q] == PatchOpacity::opaque;
+      translucent[q] = opacity_[q] == PatchOpacity::translucent;
+    }
+    PaintGroups groups = paint_groups(mesh, translucent);
+    groups.open_border = fills_page;
+    for (std::size_t q = 0; q < opacity_.size(); ++q) {
+      if (opaque[q]) groups.group[q] = groups.count;
+    }
+    painted.alpha = steps(groups, groups.count, ShadedQuantity::alpha);
+    painted.opaque_region = region_path(layer_, border_of(mesh, opaque), PaintedLayer::kPathUnits);
+  }
+
+  std::vector<PaintStep> steps(const PaintGroups& groups, int count, ShadedQuantity quantity) {
+    const QuadMesh& mesh = layer_.patches.mesh;
+    const CellTable cells = fitted(groups, count, quantity);
+    std::vector<PaintStep> all;
+    for (int g = 0; g < count; ++g) {
+      const auto visits = visit_patches(mesh, groups, g, cells);
+      const auto share = [&](double part) { report(0.5 + 0.5 * (g + part) / count); };
+      all.push_back({coons_shading(layer_, groups, visits, cells, grid_, quantity, share),
+                     region_path(layer_, group_region(mesh, groups, g), PaintedLayer::kPathUnits)});
+    }
+    ++jobs_done_;
+    return all;
+  }
+
+  CellTable fitted(const PaintGroups& groups, int count, ShadedQuantity quantity) {
+    std::vector<int> quads;
+    for (int q = 0; q < layer_.patches.patch_count(); ++q) {
+      if (groups.group[q] >= 0 && groups.group[q] < count) quads.push_back(q);
+    }
+    CellTable table(layer_.patches.patch_count());
+    const int total = static_cast<int>(quads.size());
+    std::vector<PatchCells> chunk(kChunk);
+    for (int begin = 0; begin < total; begin += kChunk) {
+      const int end = std::min(begin + kChunk, total);
+      arena_.execute([&] {
+        tbb::parallel_for(begin, end, [&](int i) {
+          chunk[i - begin] = fit_cells(layer_, quads[i], quantity, tolerance_);
+        });
+      });
+      for (int i = begin; i < end; ++i) table.add(quads[i], chunk[i - begin]);
+      report(0.5 * end / total);
+    }
+    return table;
+  }
+
+  /// `part` of the work on one quantity is done.
+  void report(double part) const { progress_((jobs_done_ + part) / jobs_); }
+
+  /// Of the drawn patches, with what they reach beyond their edges.
+  Eigen::AlignedBox2d bounds() const {
+    Eigen::AlignedBox2d box;
+    for (int q = 0; q < layer_.patches.patch_count(); ++q) {
+      for (const auto& row : to_bezier(placed_geometry(layer_, q)).control) {
+        for (const Eigen::Vector2d& p : row) box.extend(p);
+      }
+    }
+    constexpr double kMargin = 2;
+    const Eigen::Vector2d margin(kMargin, kMargin);
+    return box.isEmpty() ? box : Eigen::AlignedBox2d(box.min() - margin, box.max() + margin);
+  }
+
+  bool all(PatchOpacity opacity) const {
+    return std::all_of(opacity_.begin(), opacity_.end(),
+                       [&](PatchOpacity o) { return o == opacity; });
+  }
+
+  std::vector<char> where_not(PatchOpacity opacity) const {
+    std::vector<char> where(opacity_.size());
+    for (std::size_t q = 0; q < where.size(); ++q) where[q] = opacity_[q] != opacity;
+    return where;
+  }
+
+  const Layer& layer_;
+  double tolerance_;
+  tbb::task_arena arena_;
+  const std::function<void(double)>& progress_;
+  std::vector<PatchOpacity> opacity_;
+  CoordinateGrid grid_;
+  int jobs_ = 1, jobs_done_ = 0;
+};
+
+}  // namespace
+
+PaintedLayer paint_layer(const Layer& layer, bool fills_page, Transparency transparency,
+                         double tolerance, const RunContext& context,
+                         const std::function<void(double)>& progress) {
+  return LayerPainter(layer, tolerance, context, progress).run(fills_page, transparency);
+}
+
+}  // namespace quadrille

@@ -1,0 +1,66 @@
+#include "pdf_region_path.h"
+
+#include <cmath>
+
+#include "subdivision.h"
+#include "svg_text.h"
+
+namespace quadrille {
+namespace {
+
+/// Farthest that a line may lie from the curve it stands for, in pixels.
+constexpr double kFlatness = 0.01;
+
+class PathText {
+ public:
+  PathText(const Layer& layer, int units) : layer_(layer), units_(units) {}
+
+  void add(const EdgeLoop& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const PlaneCurve curve = edge_curve(loop[i]);
+      if (i == 0) point(curve[0], "m");
+      if (chord_distance(curve) > kFlatness) {
+        point(curve[1], "");
+        point(curve[2], "");
+        point(curve[3], "c");
+      } else if (i + 1 < loop.size()) {
+        point(curve[3], "l");
+      }
+    }
+    text_ += "h\n";
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  PlaneCurve edge_curve(int h) const {
+    const PatchMesh& patches = layer_.patches;
+    const Eigen::Vector2d &from = patches.mesh.vertices[patches.mesh.origin(h)],
+                          &to = patches.mesh.vertices[patches.mesh.tip(h)];
+    PlaneCurve curve = {from, from + tangent_along(patches, h, 0) / 3,
+                        to - tangent_along(patches, h, 1) / 3, to};
+    for (Eigen::Vector2d& p : curve) p = layer_.transform * p;
+    return curve;
+  }
+
+  void point(const Eigen::Vector2d& p, const char* operation) {
+    text_ += to_text(std::llround(p.x() * units_)) + ' ' + to_text(std::llround(p.y() * units_));
+    text_ += ' ';
+    text_ += operation;
+    if (*operation) text_ += '\n';
+  }
+
+  const Layer& layer_;
+  int units_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string region_path(const Layer& layer, const std::vector<EdgeLoop>& loops, int units) {
+  PathText path(layer, units);
+  for (const EdgeLoop& loop : loops) path.add(loop);
+  return path.text();
+}
+
+}  // namespace quadrille

@@ -1,0 +1,92 @@
+#include "pdf_order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "pdf_groups.h"
+#include "support/random_patches.h"
+
+namespace quadrille {
+namespace {
+
+/// A lattice torn along some of its edges.
+QuadMesh torn_lattice(int columns, int rows, std::uint32_t seed) {
+  QuadMesh mesh = testing::lattice(columns, rows, columns, rows);
+  testing::Random random(seed);
+  for (auto& flags : mesh.edge_flags) {
+    if (random.uniform() < 0.15) flags |= kTearEdge;
+  }
+  return mesh;
+}
+
+TEST(PaintGroups, PatchesBesideAStraightTearAreInDifferentGroups) {
+  QuadMesh mesh = testing::lattice(6, 4, 6, 4);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const int h = mesh.halfedge(e);
+    const bool middle =
+        mesh.vertices[mesh.origin(h)].x() == 3 && mesh.vertices[mesh.tip(h)].x() == 3;
+    if (middle) mesh.edge_flags[e] |= kTearEdge;
+  }
+  const PaintGroups groups = paint_groups(mesh, std::vector<char>(mesh.quad_count(), 1));
+  EXPECT_EQ(groups.count, 2);
+  for (int h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.twin(h) < 0 || !mesh.is_tear(mesh.edge(h))) continue;
+    EXPECT_NE(groups.group[h / 4], groups.group[mesh.twin(h) / 4]);
+  }
+  EXPECT_FALSE(group_region(mesh, groups, 1).empty());
+}
+
+TEST(PaintGroups, BordersCloseAroundAnySetOfQuads) {
+  const QuadMesh mesh = testing::lattice(7, 5, 7, 5);
+  testing::Random random(3);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<char> inside(mesh.quad_count());
+    double area = 0;
+    for (char& in : inside) area += in = random.uniform() < 0.5;
+    double enclosed = 0;
+    for (const EdgeLoop& loop : border_of(mesh, inside)) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        ASSERT_EQ(mesh.tip(loop[i]), mesh.origin(loop[(i + 1) % loop.size()]));
+        const auto &a = mesh.vertices[mesh.origin(loop[i])], &b = mesh.vertices[mesh.tip(loop[i])];
+        enclosed += 0.5 * (a.x() * b.y() - b.x() * a.y());
+      }
+    }
+    EXPECT_DOUBLE_EQ(enclosed, area);
+  }
+}
+
+TEST(PatchOrder, VisitsEveryCellOnceFromNeighbourToNeighbour) {
+  const QuadMesh mesh = torn_lattice(9, 7, 1);
+  CellTable table(mesh.quad_count());
+  testing::Random random(2);
+  for (int q = 0; q < mesh.quad_count(); ++q) {
+    PatchCells cells{{random.integer(1, 2), random.integer(1, 3)}, {}};
+    cells.nodes.resize((cells.count.u + 1) * (cells.count.v + 1));
+    table.add(q, cells);
+  }
+  const PaintGroups groups = paint_groups(mesh, std::vector<char>(mesh.quad_count(), 1));
+  std::vector<int> seen(mesh.quad_count(), 0);
+  for (int g = 0; g < groups.count; ++g) {
+    const PatchVisit* before = nullptr;
+    const std::vector<PatchVisit> visits = visit_patches(mesh, groups, g, table);
+    for (const PatchVisit& visit : visits) {
+      ++seen[visit.quad];
+      const Divisions count = table.count(visit.quad);
+      const auto cells = visit.cells(count);
+      EXPECT_EQ(static_cast<int>(cells.size()), count.u * count.v);
+      for (std::size_t k = 1; k < cells.size(); ++k) {
+        EXPECT_EQ(std::abs(cells[k].i - cells[k - 1].i) + std::abs(cells[k].j - cells[k - 1].j), 1);
+      }
+      if (visit.entry >= 0) {
+        ASSERT_TRUE(before);
+        EXPECT_EQ(mesh.twin(4 * visit.quad + visit.entry), 4 * before->quad + before->exit);
+      }
+      before = &visit;
+    }
+  }
+  for (const int times : seen) EXPECT_EQ(times, 1);
+}
+
+}  // namespace
+}  // namespace quadrille
