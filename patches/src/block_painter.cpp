@@ -28,9 +28,8 @@ BlockPainter::BlockPainter() : points_(std::make_unique<Pending>()) {
 
 void BlockPainter::clear(SamplePlanes& planes) {
   planes.has_alpha = with_alpha_;
-  const int height = window_.y_end - window_.y_begin;
   for (int k = 0; k < channels(); ++k) {
-    for (int y = 0; y < height; ++y) {
+    for (int y = 0; y < height(); ++y) {
       std::fill_n(planes.channel[k] + y * planes.stride, width(), 0.0f);
     }
   }
@@ -59,7 +58,7 @@ const SamplePlanes& BlockPainter::paint(const std::vector<LayerScene>& scenes,
 
 /// Puts the layer over the picture.
 void BlockPainter::merge_layer() {
-  for (int y = 0; y < window_.y_end - window_.y_begin; ++y) {
+  for (int y = 0; y < height(); ++y) {
     const std::ptrdiff_t row = y * layer_.stride;
     const float* const alpha = layer_.channel[3] + row;
     for (int k = 0; k < 4; ++k) {
@@ -71,32 +70,64 @@ void BlockPainter::merge_layer() {
 }
 
 void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> patches) {
-  outline_.find(scene.scan(), patches, window_);
   outlines_.start(scene.scan(), window_);
+  BlockEdges& edges = scene.edges_at(window_);
+  if (!edges.knows(window_)) find_edges(scene, patches, edges);
   if (with_alpha_ && scene.patches().opaque) {
     std::ranges::fill(points_->colors.color[3], 1.0f);
   }
-  covered_.fill({});
   // Backwards, so that of patches that overlap the lowest one is seen.
   for (auto q = patches.rbegin(); q != patches.rend(); ++q) {
     find_spans(scene, *q);
-    if (spans_.empty()) continue;
-    cover();
-    paint_interior(scene, *q);
+    if (!spans_.empty()) paint_interior(scene, *q);
   }
-  clear_uncovered();
-  for (const OutlinePixels::Pixel& p : outline_.pixels()) {
-    const std::ptrdiff_t at = (p.y - window_.y_begin) * layer_.stride + (p.x - window_.x_begin);
-    for (int k = 0; k < channels(); ++k) layer_.channel[k][at] = 0;
-  }
-  if (outline_.pixels().empty()) return;
-  for (const int q : patches) {
-    outline_.take(scene.scan(), q, shares_);
-    if (shares_.empty()) continue;
-    PatchShader shader(scene, q);
+  clear_blank(edges);
+  const int left = window_.x_begin & (kBlockSide - 1), top = window_.y_begin & (kBlockSide - 1);
+  for (const auto& [patch, begin, end] : edges.patches) {
+    seen_.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      BlockEdges::Share share = edges.shares[i];
+      const int x = share.column - left, y = share.row - top;
+      if (x < 0 || x >= width() || y < 0 || y >= height()) continue;
+      share.column = static_cast<std::uint8_t>(x);
+      share.row = static_cast<std::uint8_t>(y);
+      seen_.push_back(share);
+    }
+    if (seen_.empty()) continue;
+    PatchShader shader(scene, patch);
     paint_outline(shader);
   }
   points_->colors.count = 0;
+}
+
+/// Works out the edges in the window.
+void BlockPainter::find_edges(const LayerScene& scene, std::span<const int> patches,
+                              BlockEdges& edges) {
+  edges.patches.clear();
+  edges.shares.clear();
+  const int left = window_.x_begin & -kBlockSide, top = window_.y_begin & -kBlockSide;
+  outline_.find(scene.scan(), patches, window_);
+  covered_.fill({});
+  for (const int q : patches) {
+    find_spans(scene, q);
+    cover();
+    outline_.take(scene.scan(), q, shares_);
+    if (shares_.empty()) continue;
+    const std::size_t begin = edges.shares.size();
+    for (const OutlinePixels::Share& share : shares_) {
+      const OutlinePixels::Pixel& p = outline_.pixels()[share.pixel];
+      edges.shares.push_back({static_cast<std::uint8_t>(p.x - left),
+                              static_cast<std::uint8_t>(p.y - top), share.weight, share.x,
+                              share.y});
+    }
+    edges.patches.push_back({q, begin, edges.shares.size()});
+  }
+  for (const OutlinePixels::Pixel& p : outline_.pixels()) {
+    const int x = p.x - window_.x_begin;
+    covered_[p.y - window_.y_begin][x / 64] &= ~(std::uint64_t{1} << x % 64);
+  }
+  find_blank(edges);
+  edges.window = window_;
 }
 
 /// Marks the samples of the spans.
@@ -111,8 +142,11 @@ void BlockPainter::cover() {
   }
 }
 
-void BlockPainter::clear_uncovered() {
-  for (int y = 0; y < window_.y_end - window_.y_begin; ++y) {
+/// Lists what is not marked.
+void BlockPainter::find_blank(BlockEdges& edges) {
+  edges.blank.clear();
+  const int left = window_.x_begin & (kBlockSide - 1), top = window_.y_begin & (kBlockSide - 1);
+  for (int y = 0; y < height(); ++y) {
     for (int x = 0; x < width();) {
       const std::uint64_t rest = covered_[y][x / 64] >> x % 64;
       if (rest & 1) {
@@ -121,11 +155,21 @@ void BlockPainter::clear_uncovered() {
       }
       const int free = std::min(std::countr_zero(rest), 64 - x % 64);
       const int end = std::min(x + free, width());
-      for (int k = 0; k < channels(); ++k) {
-        float* const row = layer_.channel[k] + y * layer_.stride;
-        std::fill(row + x, row + end, 0.0f);
-      }
+      edges.blank.push_back({top + y, left + x, left + end});
       x = end;
+    }
+  }
+}
+
+void BlockPainter::clear_blank(const BlockEdges& edges) {
+  const int left = window_.x_begin & (kBlockSide - 1), top = window_.y_begin & (kBlockSide - 1);
+  for (const SampleSpan& s : edges.blank) {
+    const int y = s.y - top;
+    const int begin = std::max(s.x_begin - left, 0), end = std::min(s.x_end - left, width());
+    if (y < 0 || y >= height() || begin >= end) continue;
+    for (int k = 0; k < channels(); ++k) {
+      float* const row = layer_.channel[k] + y * layer_.stride;
+      std::fill(row + begin, row + end, 0.0f);
     }
   }
 }
@@ -264,22 +308,20 @@ void BlockPainter::paint_rest(PatchShader& shader) {
 
 void BlockPainter::paint_outline(PatchShader& shader) {
   ColorBatch& batch = points_->colors;
-  for (std::size_t begin = 0; begin < shares_.size(); begin += ColorBatch::kCapacity) {
-    batch.count =
-        static_cast<int>(std::min<std::size_t>(ColorBatch::kCapacity, shares_.size() - begin));
+  const int left = window_.x_begin - shader.origin()[0], top = window_.y_begin - shader.origin()[1];
+  for (std::size_t begin = 0; begin < seen_.size(); begin += ColorBatch::kCapacity) {
+    const auto part = std::span(seen_).subspan(
+        begin, std::min<std::size_t>(ColorBatch::kCapacity, seen_.size() - begin));
+    batch.count = static_cast<int>(part.size());
     for (int i = 0; i < batch.count; ++i) {
-      const OutlinePixels::Share& share = shares_[begin + i];
-      const OutlinePixels::Pixel& p = outline_.pixels()[share.pixel];
-      batch.x[i] = static_cast<float>(p.x - shader.origin()[0]) + share.x;
-      batch.y[i] = static_cast<float>(p.y - shader.origin()[1]) + share.y;
+      batch.x[i] = static_cast<float>(left + part[i].column) + part[i].x;
+      batch.y[i] = static_cast<float>(top + part[i].row) + part[i].y;
     }
     shader.shade(batch);
     for (int i = 0; i < batch.count; ++i) {
-      const OutlinePixels::Share& share = shares_[begin + i];
-      const OutlinePixels::Pixel& p = outline_.pixels()[share.pixel];
-      const std::ptrdiff_t at = (p.y - window_.y_begin) * layer_.stride + (p.x - window_.x_begin);
+      const std::ptrdiff_t at = part[i].row * layer_.stride + part[i].column;
       for (int k = 0; k < channels(); ++k) {
-        layer_.channel[k][at] += batch.color[k][i] * share.weight;
+        layer_.channel[k][at] += batch.color[k][i] * part[i].weight;
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "block_colors.h"
+#include "block_edges.h"
 #include "layer_scene.h"
 #include "outline_pixels.h"
 #include "pixel_packer.h"
@@ -58,6 +59,7 @@ class BlockPainter {
   std::array<std::array<std::uint64_t, kWords>, kBlockSide> covered_;
   OutlinePixels outline_;
   std::vector<OutlinePixels::Share> shares_;
+  std::vector<BlockEdges::Share> seen_;  // shares of one patch in the window
   std::unique_ptr<Pending> points_;
   std::array<Band, kBlocks> bands_;
   std::vector<SampleSpan> rest_;
@@ -66,11 +68,14 @@ class BlockPainter {
   std::vector<std::span<const SampleSpan>> inside_;
 
   int width() const { return window_.x_end - window_.x_begin; }
+  int height() const { return window_.y_end - window_.y_begin; }
   int channels() const { return with_alpha_ ? 4 : 3; }
   void clear(SamplePlanes& planes);
   void merge_layer();
+  void find_edges(const LayerScene& scene, std::span<const int> patches, BlockEdges& edges);
   void cover();
-  void clear_uncovered();
+  void find_blank(BlockEdges& edges);
+  void clear_blank(const BlockEdges& edges);
   void find_spans(const LayerScene& scene, int patch);
   void paint_layer(const LayerScene& scene, std::span<const int> patches);
   /// Of the spans found in the window.
@@ -82,7 +87,7 @@ class BlockPainter {
   void paint_rest(PatchShader& shader);
   std::span<const SampleSpan> spans_in(int x, int y, int side) const;
   void flush(PatchShader& shader);
-  /// Of the shares found.
+  /// Of the shares seen.
   void paint_outline(PatchShader& shader);
 };
 

@@ -72,6 +72,7 @@ void LayerScene::prepare(const std::array<double, 2>& scale, const SampleWindow&
     from_samples_ = to_samples_.inverse();
     scan_.start(to_samples_);
     spans_.start(boxes_.size());
+    edges_.clear();
   }
   window_ = window;
   find_wanted();
@@ -80,6 +81,7 @@ void LayerScene::prepare(const std::array<double, 2>& scale, const SampleWindow&
   scan_.add(wanted_, for_each);
   spans_.add(scan_, wanted_, for_each);
   bins_.fill(scan_, wanted_, window);
+  edges_.start(window);
   scale_ = scale;
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "block_edges.h"
 #include "patch_bins.h"
 #include "patch_program.h"
 #include "patch_scan.h"
@@ -30,6 +31,8 @@ class LayerScene {
   const PatchMesh& patches() const { return layer_.patches; }
   const PatchScan& scan() const { return scan_; }
   const PatchSpans& spans() const { return spans_; }
+  /// What is known of the block that holds `part`; the painter of the block fills it in.
+  BlockEdges& edges_at(const SampleWindow& part) const { return edges_.at(part); }
   const PatchProgram& program(int patch) const { return programs_.of(patch); }
   const Eigen::Affine2d& to_samples() const { return to_samples_; }
   const Eigen::Affine2d& from_samples() const { return from_samples_; }
@@ -53,6 +56,7 @@ class LayerScene {
   PatchScan scan_;
   PatchSpans spans_;
   PatchBins bins_;
+  KeptEdges edges_;
   PatchPrograms programs_;
 
   void find_wanted();
