@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
+#include "patch_shader.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
@@ -73,6 +75,7 @@ void LayerScene::prepare(const std::array<double, 2>& scale, const SampleWindow&
     scan_.start(to_samples_);
     spans_.start(boxes_.size());
     edges_.clear();
+    plans_.start(boxes_.size());
   }
   window_ = window;
   find_wanted();
@@ -88,6 +91,20 @@ void LayerScene::prepare(const std::array<double, 2>& scale, const SampleWindow&
 void LayerScene::prepare_programs(WorkArena& arena) {
   programs_.add(layer_.patches, wanted_,
                 [&](std::size_t count, const auto& body) { arena.for_each(count, body); });
+  unplanned_.clear();
+  std::ranges::copy_if(wanted_, std::back_inserter(unplanned_),
+                       [&](int q) { return spans_.has(q) && !plans_.has(q); });
+  constexpr std::size_t kPlanned = 64;
+  arena.for_each((unplanned_.size() + kPlanned - 1) / kPlanned, [&](std::size_t r) {
+    BlockPlanner& planner = planners_.local();
+    BlockPlan plan;
+    const std::size_t end = std::min(unplanned_.size(), (r + 1) * kPlanned);
+    for (std::size_t i = r * kPlanned; i < end; ++i) {
+      const int q = unplanned_[i];
+      planner.plan(PatchShader(*this, q), scan_.bounds(q), spans_.of(q), plan);
+      plans_.set(q, plan);
+    }
+  });
 }
 
 }  // namespace quadrille

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "block_edges.h"
+#include "block_plan.h"
 #include "patch_bins.h"
 #include "patch_program.h"
 #include "patch_scan.h"
@@ -25,7 +26,7 @@ class LayerScene {
   /// Samples per pixel of the picture along both axes, and where to draw. Throws what
   /// write_edge_polyline() throws.
   void prepare(const std::array<double, 2>& scale, const SampleWindow& window, WorkArena& arena);
-  /// Makes the programs of the patches in the window.
+  /// Makes the programs and plans of the patches in the window.
   void prepare_programs(WorkArena& arena);
 
   const PatchMesh& patches() const { return layer_.patches; }
@@ -34,6 +35,8 @@ class LayerScene {
   /// What is known of the block that holds `part`; the painter of the block fills it in.
   BlockEdges& edges_at(const SampleWindow& part) const { return edges_.at(part); }
   const PatchProgram& program(int patch) const { return programs_.of(patch); }
+  /// For all samples of those patches whose spans are kept.
+  const KeptPlans& plans() const { return plans_; }
   const Eigen::Affine2d& to_samples() const { return to_samples_; }
   const Eigen::Affine2d& from_samples() const { return from_samples_; }
 
@@ -52,12 +55,14 @@ class LayerScene {
   std::array<double, 2> scale_ = {0, 0};
   SampleWindow window_;
   Eigen::Affine2d to_samples_, from_samples_;
-  std::vector<int> wanted_;
+  std::vector<int> wanted_, unplanned_;
   PatchScan scan_;
   PatchSpans spans_;
   PatchBins bins_;
   KeptEdges edges_;
   PatchPrograms programs_;
+  KeptPlans plans_;
+  tbb::enumerable_thread_specific<BlockPlanner> planners_;
 
   void find_wanted();
 };

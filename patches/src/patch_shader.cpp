@@ -28,8 +28,8 @@ void PatchShader::shade(ColorBatch& batch) {
   }
 }
 
-void PatchShader::judge(int side, std::span<const ColorBlock> blocks, bool* fit) const {
-  std::fill(fit, fit + blocks.size(), false);
+void PatchShader::judge(int side, std::span<const ColorBlock> blocks, std::uint8_t* fit) const {
+  std::fill(fit, fit + blocks.size(), std::uint8_t{0});
   if (program_.regular) {
     judge_blocks(program_, map_, scene_.patches().opaque, side, blocks, fit);
   }

@@ -24,7 +24,7 @@ class PatchShader {
   void shade(ColorBatch& batch);
 
   /// judge_blocks() and paint_block() of the patch.
-  void judge(int side, std::span<const ColorBlock> blocks, bool* fit) const;
+  void judge(int side, std::span<const ColorBlock> blocks, std::uint8_t* fit) const;
   bool paint(int side, const ColorBlock& block, const BlockTarget& target) const;
 
  private:
