@@ -88,10 +88,9 @@ void judge(const PatchProgram& p, const float (&map)[6], bool opaque, int side,
   }
 }
 
-/// Colours at the nodes before clamping: [channel][4 row + column].
 template <int kSide>
-HWY_INLINE bool find_nodes(const PatchProgram& p, const float (&map)[6], const ColorBlock& block,
-                           int channels, float (&colors)[4][16]) {
+bool find_nodes_of(const PatchProgram& p, const float (&map)[6], bool opaque,
+                   const ColorBlock& block, BlockNodes& nodes) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   alignas(64) float xs[16], ys[16];
@@ -105,11 +104,23 @@ HWY_INLINE bool find_nodes(const PatchProgram& p, const float (&map)[6], const C
     Parameters at[1];
     invert<1>(p, {point.x}, {point.y}, kReach, 8 * kSteeper, at);
     if (!hn::AllTrue(d, at[0].found)) return false;
-    for (int k = 0; k < channels; ++k) {
-      hn::Store(bicubic(p.color[k], at[0].s, at[0].t), d, colors[k] + i);
+    for (int k = 0; k < (opaque ? 3 : 4); ++k) {
+      hn::StoreU(bicubic(p.color[k], at[0].s, at[0].t), d, nodes[k] + i);
     }
   }
   return true;
+}
+
+bool find_nodes(const PatchProgram& p, const float (&map)[6], bool opaque, int side,
+                const ColorBlock& block, BlockNodes& nodes) {
+  switch (side) {
+    case 8:
+      return find_nodes_of<8>(p, map, opaque, block, nodes);
+    case 16:
+      return find_nodes_of<16>(p, map, opaque, block, nodes);
+    default:
+      return find_nodes_of<32>(p, map, opaque, block, nodes);
+  }
 }
 
 /// Interpolates the nodes' values in y: columns[i][y].
@@ -128,62 +139,72 @@ HWY_INLINE void interpolate_columns(const float (&nodes)[16], float (&columns)[4
   }
 }
 
+/// Paints the columns [begin, end) of one row of a block, of which `out` is the first sample.
 template <int kSide, bool opaque>
-bool paint_of(const PatchProgram& p, const float (&map)[6], const ColorBlock& block,
-              const BlockTarget& target) {
-  constexpr int kChannels = opaque ? 3 : 4;
+HWY_INLINE void paint_row(const float (&columns)[opaque ? 3 : 4][4][kSide], int y, int begin,
+                          int end, float* const (&out)[4], bool has_alpha) {
   const hn::CappedTag<float, std::min(kSide, 16)> d;
   using Vector = hn::Vec<decltype(d)>;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const auto& weight = kNodes<kSide>.weight;
-  alignas(64) float nodes[4][16], columns[kChannels][4][kSide];
-  if (!find_nodes<kSide>(p, map, block, kChannels, nodes)) return false;
-  for (int k = 0; k < kChannels; ++k) interpolate_columns<kSide>(nodes[k], columns[k]);
-  const Vector zero = hn::Zero(d), one = hn::Set(d, 1.0f), counted = hn::Iota(d, 0);
-  for (const SampleSpan& span : target.spans) {
-    if (span.y < target.window.y_begin || span.y >= target.window.y_end) continue;
-    const int begin = std::max({span.x_begin, target.window.x_begin, target.left}) - target.left;
-    const int end = std::min({span.x_end, target.window.x_end, target.left + kSide}) - target.left;
-    const int y = span.y - target.top;
-    const std::ptrdiff_t row = (span.y - target.window.y_begin) * target.samples.stride +
-                               (target.left - target.window.x_begin);
-    for (int x = begin & -lanes; x < end; x += lanes) {
-      const auto color = [&](int k) {
-        Vector sum = hn::Set(d, columns[k][0][y]) * hn::Load(d, weight[0] + x);
-        for (int i = 1; i < 4; ++i) {
-          sum = sum + hn::Set(d, columns[k][i][y]) * hn::Load(d, weight[i] + x);
-        }
-        return sum;
-      };
-      const bool whole = x >= begin && x + lanes <= end;
-      const auto inside = hn::And(counted >= hn::Set(d, static_cast<float>(begin - x)),
-                                  counted < hn::Set(d, static_cast<float>(end - x)));
-      const auto store = [&](const Vector& v, int k) {
-        float* const out = target.samples.channel[k] + row + x;
-        if (whole) {
-          hn::StoreU(v, d, out);
-        } else {
-          hn::BlendedStore(v, inside, d, out);
-        }
-      };
-      Vector alpha = one;
-      if constexpr (!opaque) alpha = hn::Min(hn::Max(color(3), zero), one);
-      if (!opaque || target.samples.has_alpha) store(alpha, 3);
-      for (int k = 0; k < 3; ++k) store(hn::Min(hn::Max(color(k), zero), alpha), k);
+  const Vector zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const auto paint_vector = [&](int x, const auto& store) {
+    const Vector w[4] = {hn::Load(d, weight[0] + x), hn::Load(d, weight[1] + x),
+                         hn::Load(d, weight[2] + x), hn::Load(d, weight[3] + x)};
+    const auto color = [&](int k) {
+      Vector sum = hn::Set(d, columns[k][0][y]) * w[0];
+      for (int i = 1; i < 4; ++i) sum = sum + hn::Set(d, columns[k][i][y]) * w[i];
+      return sum;
+    };
+    Vector alpha = one;
+    if constexpr (!opaque) alpha = hn::Min(hn::Max(color(3), zero), one);
+    const Vector c[3] = {color(0), color(1), color(2)};
+    for (int k = 0; k < 3; ++k) store(hn::Min(hn::Max(c[k], zero), alpha), out[k] + x);
+    if (!opaque || has_alpha) store(alpha, out[3] + x);
+  };
+  if (begin == 0 && end == kSide) {
+    for (int x = 0; x < kSide; x += lanes) {
+      paint_vector(x, [&](const Vector& v, float* to) { hn::StoreU(v, d, to); });
     }
+    return;
   }
-  return true;
+  const Vector counted = hn::Iota(d, 0);
+  for (int x = begin & -lanes; x < end; x += lanes) {
+    const auto inside = hn::And(counted >= hn::Set(d, static_cast<float>(begin - x)),
+                                counted < hn::Set(d, static_cast<float>(end - x)));
+    paint_vector(x, [&](const Vector& v, float* to) { hn::BlendedStore(v, inside, d, to); });
+  }
 }
 
-bool paint(const PatchProgram& p, const float (&map)[6], bool opaque, int side,
-           const ColorBlock& block, const BlockTarget& target) {
+template <int kSide, bool opaque>
+void paint_of(const BlockNodes& nodes, const BlockTarget& target) {
+  constexpr int kChannels = opaque ? 3 : 4;
+  alignas(64) float columns[kChannels][4][kSide];
+  for (int k = 0; k < kChannels; ++k) interpolate_columns<kSide>(nodes[k], columns[k]);
+  const SampleWindow& window = target.window;
+  const SamplePlanes& samples = target.samples;
+  for (const SampleSpan& span : target.spans) {
+    if (span.y < window.y_begin || span.y >= window.y_end) continue;
+    const int begin = std::max({span.x_begin, window.x_begin, target.left}) - target.left;
+    const int end = std::min({span.x_end, window.x_end, target.left + kSide}) - target.left;
+    if (begin >= end) continue;
+    const std::ptrdiff_t row =
+        (span.y - window.y_begin) * samples.stride + (target.left - window.x_begin);
+    paint_row<kSide, opaque>(columns, span.y - target.top, begin, end,
+                             {samples.channel[0] + row, samples.channel[1] + row,
+                              samples.channel[2] + row, samples.channel[3] + row},
+                             samples.has_alpha);
+  }
+}
+
+void paint(const BlockNodes& nodes, bool opaque, int side, const BlockTarget& target) {
   switch (side) {
     case 8:
-      return (opaque ? paint_of<8, true> : paint_of<8, false>)(p, map, block, target);
+      return (opaque ? paint_of<8, true> : paint_of<8, false>)(nodes, target);
     case 16:
-      return (opaque ? paint_of<16, true> : paint_of<16, false>)(p, map, block, target);
+      return (opaque ? paint_of<16, true> : paint_of<16, false>)(nodes, target);
     default:
-      return (opaque ? paint_of<32, true> : paint_of<32, false>)(p, map, block, target);
+      return (opaque ? paint_of<32, true> : paint_of<32, false>)(nodes, target);
   }
 }
 
@@ -196,6 +217,7 @@ HWY_AFTER_NAMESPACE();
 namespace quadrille {
 namespace {
 HWY_EXPORT(judge);
+HWY_EXPORT(find_nodes);
 HWY_EXPORT(paint);
 }  // namespace
 
@@ -204,9 +226,13 @@ void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaqu
   HWY_DYNAMIC_DISPATCH(judge)(program, map, opaque, side, blocks, fit);
 }
 
-bool paint_block(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
-                 const ColorBlock& block, const BlockTarget& target) {
-  return HWY_DYNAMIC_DISPATCH(paint)(program, map, opaque, side, block, target);
+bool find_block_nodes(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
+                      const ColorBlock& block, BlockNodes& nodes) {
+  return HWY_DYNAMIC_DISPATCH(find_nodes)(program, map, opaque, side, block, nodes);
+}
+
+void paint_block(const BlockNodes& nodes, bool opaque, int side, const BlockTarget& target) {
+  HWY_DYNAMIC_DISPATCH(paint)(nodes, opaque, side, target);
 }
 
 }  // namespace quadrille

@@ -33,9 +33,14 @@ struct BlockTarget {
   const SamplePlanes& samples;  ///< whole rows of the block are read and written again
 };
 
-/// Paints those parts of the spans that lie in a block that judge_blocks() found fit. False, with
-/// nothing painted, where a node's parameters are not found.
-bool paint_block(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
-                 const ColorBlock& block, const BlockTarget& target);
+/// A patch's colours at the 4 x 4 nodes of a block before clamping, [channel][4 row + column].
+using BlockNodes = float[4][16];
+
+/// False where a node's parameters are not found.
+bool find_block_nodes(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
+                      const ColorBlock& block, BlockNodes& nodes);
+
+/// Paints those parts of the spans that lie in the block.
+void paint_block(const BlockNodes& nodes, bool opaque, int side, const BlockTarget& target);
 
 }  // namespace quadrille

@@ -211,25 +211,15 @@ void BlockPainter::paint_interior(const LayerScene& scene, int patch) {
   PatchShader shader(scene, patch);
   if (!scene.plans().has(patch)) planner_.plan(shader, bounds, spans, plan_);
   const BlockPlan& plan = scene.plans().has(patch) ? scene.plans().of(patch) : plan_;
-  for (const BlockPlan::Block& block : plan.blocks) paint_block(shader, block, spans);
+  for (const BlockPlan::Block& block : plan.blocks) {
+    const SampleWindow square = {block.x, block.y, block.x + block.side, block.y + block.side};
+    if (intersection(square, window_).empty()) continue;
+    paint_block(
+        block.nodes, scene.patches().opaque, block.side,
+        {block.x, block.y, spans.subspan(block.begin, block.end - block.begin), window_, layer_});
+  }
   const auto points = plan.blocks.empty() ? spans : std::span(plan.points);
   paint_points(shader, part == bounds ? points : clipped(points));
-}
-
-void BlockPainter::paint_block(PatchShader& shader, const BlockPlan::Block& block,
-                               std::span<const SampleSpan> spans) {
-  const SampleWindow square = {block.x, block.y, block.x + block.side, block.y + block.side};
-  if (intersection(square, window_).empty()) return;
-  const auto rows = spans.subspan(block.begin, block.end - block.begin);
-  const ColorBlock corner = {static_cast<float>(block.x - shader.origin()[0]),
-                             static_cast<float>(block.y - shader.origin()[1])};
-  if (shader.paint(block.side, corner, {block.x, block.y, rows, window_, layer_})) return;
-  inside_.clear();
-  for (const SampleSpan& s : rows) {
-    const int begin = std::max(s.x_begin, square.x_begin), end = std::min(s.x_end, square.x_end);
-    if (begin < end) inside_.push_back({s.y, begin, end});
-  }
-  paint_points(shader, clipped(inside_));
 }
 
 void BlockPainter::paint_points(PatchShader& shader, std::span<const SampleSpan> spans) {

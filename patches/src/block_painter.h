@@ -50,7 +50,7 @@ class BlockPainter {
   std::vector<OutlinePixels::Share> shares_;
   std::vector<BlockEdges::Share> seen_;  // shares of one patch in the window
   std::unique_ptr<Pending> points_;
-  std::vector<SampleSpan> clipped_, inside_;
+  std::vector<SampleSpan> clipped_;
   BlockPlanner planner_;
   BlockPlan plan_;  // of the current patch in the window, where none is kept
 
@@ -67,8 +67,6 @@ class BlockPainter {
   std::span<const SampleSpan> clipped(std::span<const SampleSpan> spans);
   void paint_layer(const LayerScene& scene, std::span<const int> patches);
   void paint_interior(const LayerScene& scene, int patch);
-  void paint_block(PatchShader& shader, const BlockPlan::Block& block,
-                   std::span<const SampleSpan> spans);
   void paint_points(PatchShader& shader, std::span<const SampleSpan> spans);
   void flush(PatchShader& shader);
   /// Of the shares seen.

@@ -94,10 +94,11 @@ void BlockPlanner::take_fitting(const PatchShader& shader, int side, BlockPlan& 
     const Corner c = tried_[i];
     if (fit_[i]) {
       const Band spans = spans_in(c, side);
-      plan.blocks.push_back({c.x, c.y, side, spans.begin, spans.end});
-    } else {
-      tried_[rest++] = c;
+      plan.blocks.push_back({c.x, c.y, side, spans.begin, spans.end, {}});
+      if (shader.find_nodes(side, blocks_[i], plan.blocks.back().nodes)) continue;
+      plan.blocks.pop_back();
     }
+    tried_[rest++] = c;
   }
   tried_.resize(rest);
 }

@@ -16,6 +16,7 @@ struct BlockPlan {
   /// A block whose polynomials are good enough, and the patch's spans [begin, end) in its rows.
   struct Block {
     int x, y, side, begin, end;
+    BlockNodes nodes;
   };
   std::vector<Block> blocks;
   /// The samples in none of them. Without blocks the list stays empty and means all samples.
@@ -61,6 +62,10 @@ class KeptPlans {
   void start(std::size_t patch_count) { plans_.assign(patch_count, {}); }
   bool has(int patch) const { return plans_[patch].known; }
   void set(int patch, BlockPlan plan) { plans_[patch] = {std::move(plan), true}; }
+  std::size_t bytes(int patch) const {
+    const BlockPlan& plan = plans_[patch].plan;
+    return plan.blocks.size() * sizeof(BlockPlan::Block) + plan.points.size() * sizeof(SampleSpan);
+  }
   const BlockPlan& of(int patch) const { return plans_[patch].plan; }
 
  private:

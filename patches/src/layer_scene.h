@@ -9,6 +9,7 @@
 #include "patch_program.h"
 #include "patch_scan.h"
 #include "patch_spans.h"
+#include "patch_view.h"
 #include "quadrille/vector_image.h"
 #include "work_arena.h"
 
@@ -35,6 +36,7 @@ class LayerScene {
   /// What is known of the block that holds `part`; the painter of the block fills it in.
   BlockEdges& edges_at(const SampleWindow& part) const { return edges_.at(part); }
   const PatchProgram& program(int patch) const { return programs_.of(patch); }
+  const PatchView& view(int patch) const { return views_[patch]; }
   /// For all samples of those patches whose spans are kept.
   const KeptPlans& plans() const { return plans_; }
   const Eigen::Affine2d& to_samples() const { return to_samples_; }
@@ -61,7 +63,9 @@ class LayerScene {
   PatchBins bins_;
   KeptEdges edges_;
   PatchPrograms programs_;
+  std::vector<PatchView> views_;  // #Q
   KeptPlans plans_;
+  std::size_t plan_bytes_ = 0;
   tbb::enumerable_thread_specific<BlockPlanner> planners_;
 
   void find_wanted();
