@@ -3,6 +3,9 @@
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <string>
@@ -92,6 +95,29 @@ void bench_draw(benchmark::State& state, Renderer& renderer, const RenderOptions
   }
 }
 
+/// Frames by one and by two threads in turn; the best wall times' ratio, since only undisturbed
+/// runs of two threads say anything.
+void bench_two_threads(benchmark::State& state, const VectorImage& image,
+                       const RenderOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  const PixelRegion region = *options.region;
+  std::vector<std::uint32_t> pixels(std::size_t{1} * region.width * region.height);
+  Renderer renderers[2] = {Renderer(image), Renderer(image)};
+  double best[2] = {INFINITY, INFINITY};
+  const auto draw = [&](int i) {
+    RunContext context;
+    context.threads = i + 1;
+    const auto begin = Clock::now();
+    renderers[i].draw(options, {}, {pixels.data(), region.width * 4}, context);
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  };
+  for (int i = 0; i < 2; ++i) draw(i);
+  for (auto _ : state) {
+    for (int i = 0; i < 2; ++i) best[i] = std::min(best[i], draw(i));
+  }
+  state.counters["two threads over one"] = best[0] / best[1];
+}
+
 void add_view(const Scene& scene, const View& view) {
   const VectorImage& image = scene.image;
   const RenderOptions options = options_of(image, view);
@@ -125,6 +151,8 @@ void add_view(const Scene& scene, const View& view) {
     Renderer renderer(image);
     bench_draw(state, renderer, options, [&](Renderer& r) { r = Renderer(image); });
   });
+  add(scene, view, "two threads", region,
+      [=, &image](benchmark::State& state) { bench_two_threads(state, image, options); });
 }
 
 /// One line per view and method: CPU time, speed, and its ratio to the others' of the same view.
@@ -143,6 +171,13 @@ class RatioReporter : public benchmark::BenchmarkReporter {
       const std::string view = name.substr(0, second), method = name.substr(second + 1);
       if (run.error_occurred) {
         fmt::print("{} {}\n", name, run.error_message);
+        continue;
+      }
+      if (const auto found = run.counters.find("two threads over one");
+          found != run.counters.end()) {
+        fmt::print("{:<15} {:<9} {:<12} {:.2f} times as fast as one, best wall times\n",
+                   name.substr(0, first), name.substr(first + 1, second - first - 1), method,
+                   found->second.value);
         continue;
       }
       const double seconds = run.cpu_accumulated_time / static_cast<double>(run.iterations);

@@ -3,6 +3,7 @@
 #include <vips/vips.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -220,6 +221,28 @@ VipsImagePtr as_vips_image(Drawing& drawing) {
   return VipsImagePtr(cached);
 }
 
+/// Says why libvips could not write `path`, whose unfinished `temporary` is still there.
+[[noreturn]] void throw_failure(const std::filesystem::path& path,
+                                const std::filesystem::path& temporary) {
+  char* const text = vips_error_buffer_copy();
+  std::string reason(text);
+  g_free(text);
+  // Not every saver tells that the disk is full.
+  constexpr std::uintmax_t kTooLittle = 1u << 18;
+  const std::filesystem::path folder = std::filesystem::absolute(temporary).parent_path();
+  std::error_code error;
+  const auto space = std::filesystem::space(folder, error);
+  if (!error && space.available < kTooLittle) {
+    throw Error(ErrorCode::io_failure, "cannot write '" + path.string() +
+                                           "': no space is left on the disk of '" +
+                                           folder.string() + "'; free some or choose another path");
+  }
+  reason.erase(reason.find_last_not_of('\n') + 1);
+  reason.erase(0, reason.rfind('\n') + 1);
+  throw Error(ErrorCode::io_failure, "cannot write '" + path.string() + "': " + reason +
+                                         "; check the free space or choose another path");
+}
+
 }  // namespace
 
 void write_stream(const RasterStream& stream, const std::filesystem::path& path,
@@ -247,13 +270,7 @@ void write_stream(const RasterStream& stream, const std::filesystem::path& path,
       if (tiles) tiles->keep();
       return;
     }
-    char* const text = vips_error_buffer_copy();
-    std::string reason(text);
-    g_free(text);
-    reason.erase(reason.find_last_not_of('\n') + 1);
-    reason.erase(0, reason.rfind('\n') + 1);
-    throw Error(ErrorCode::io_failure, "cannot write '" + path.string() + "': " + reason +
-                                           "; check the free space or choose another path");
+    throw_failure(path, temporary);
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "patch_program.h"
@@ -21,18 +22,25 @@ struct ColorBlock {
 /// 1/130 of an 8-bit step. Proven, not tried: by bounds of the derivatives of the inverse and of
 /// the colours. A block's answer does not depend on the others; all instruction sets agree.
 void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
-                  std::span<const ColorBlock> blocks, bool* fit);
+                  std::span<const ColorBlock> blocks, std::uint8_t* fit);
 
-/// Where a block lies in a window, the spans to paint there, and the window's samples.
+/// A block's first sample, spans that may reach into it, and the samples of a window, outside of
+/// which nothing is painted.
 struct BlockTarget {
-  int left, top;  ///< the block's first sample
+  int left, top;
   std::span<const SampleSpan> spans;
+  const SampleWindow& window;
   const SamplePlanes& samples;  ///< whole rows of the block are read and written again
 };
 
-/// Paints those parts of the spans that lie in a block that judge_blocks() found fit. False, with
-/// nothing painted, where a node's parameters are not found.
-bool paint_block(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
-                 const ColorBlock& block, const BlockTarget& target);
+/// A patch's colours at the 4 x 4 nodes of a block before clamping, [channel][4 row + column].
+using BlockNodes = float[4][16];
+
+/// False where a node's parameters are not found.
+bool find_block_nodes(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
+                      const ColorBlock& block, BlockNodes& nodes);
+
+/// Paints those parts of the spans that lie in the block.
+void paint_block(const BlockNodes& nodes, bool opaque, int side, const BlockTarget& target);
 
 }  // namespace quadrille

@@ -28,9 +28,8 @@ BlockPainter::BlockPainter() : points_(std::make_unique<Pending>()) {
 
 void BlockPainter::clear(SamplePlanes& planes) {
   planes.has_alpha = with_alpha_;
-  const int height = window_.y_end - window_.y_begin;
   for (int k = 0; k < channels(); ++k) {
-    for (int y = 0; y < height; ++y) {
+    for (int y = 0; y < height(); ++y) {
       std::fill_n(planes.channel[k] + y * planes.stride, width(), 0.0f);
     }
   }
@@ -59,7 +58,7 @@ const SamplePlanes& BlockPainter::paint(const std::vector<LayerScene>& scenes,
 
 /// Puts the layer over the picture.
 void BlockPainter::merge_layer() {
-  for (int y = 0; y < window_.y_end - window_.y_begin; ++y) {
+  for (int y = 0; y < height(); ++y) {
     const std::ptrdiff_t row = y * layer_.stride;
     const float* const alpha = layer_.channel[3] + row;
     for (int k = 0; k < 4; ++k) {
@@ -71,48 +70,81 @@ void BlockPainter::merge_layer() {
 }
 
 void BlockPainter::paint_layer(const LayerScene& scene, std::span<const int> patches) {
-  outline_.find(scene.scan(), patches, window_);
   outlines_.start(scene.scan(), window_);
+  BlockEdges& edges = scene.edges_at(window_);
+  if (!edges.knows(window_)) find_edges(scene, patches, edges);
   if (with_alpha_ && scene.patches().opaque) {
     std::ranges::fill(points_->colors.color[3], 1.0f);
   }
-  covered_.fill({});
   // Backwards, so that of patches that overlap the lowest one is seen.
-  for (auto q = patches.rbegin(); q != patches.rend(); ++q) {
-    find_spans(scene, *q);
-    if (spans_.empty()) continue;
-    cover();
-    paint_interior(scene, *q);
-  }
-  clear_uncovered();
-  for (const OutlinePixels::Pixel& p : outline_.pixels()) {
-    const std::ptrdiff_t at = (p.y - window_.y_begin) * layer_.stride + (p.x - window_.x_begin);
-    for (int k = 0; k < channels(); ++k) layer_.channel[k][at] = 0;
-  }
-  if (outline_.pixels().empty()) return;
-  for (const int q : patches) {
-    outline_.take(scene.scan(), q, shares_);
-    if (shares_.empty()) continue;
-    PatchShader shader(scene, q);
+  for (auto q = patches.rbegin(); q != patches.rend(); ++q) paint_interior(scene, *q);
+  clear_blank(edges);
+  const int left = window_.x_begin & (kBlockSide - 1), top = window_.y_begin & (kBlockSide - 1);
+  for (const auto& [patch, begin, end] : edges.patches) {
+    seen_.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      BlockEdges::Share share = edges.shares[i];
+      const int x = share.column - left, y = share.row - top;
+      if (x < 0 || x >= width() || y < 0 || y >= height()) continue;
+      share.column = static_cast<std::uint8_t>(x);
+      share.row = static_cast<std::uint8_t>(y);
+      seen_.push_back(share);
+    }
+    if (seen_.empty()) continue;
+    PatchShader shader(scene, patch);
     paint_outline(shader);
   }
   points_->colors.count = 0;
 }
 
+/// Works out the edges in the window.
+void BlockPainter::find_edges(const LayerScene& scene, std::span<const int> patches,
+                              BlockEdges& edges) {
+  edges.patches.clear();
+  edges.shares.clear();
+  const int left = window_.x_begin & -kBlockSide, top = window_.y_begin & -kBlockSide;
+  outline_.find(scene.scan(), patches, window_);
+  covered_.fill({});
+  for (const int q : patches) {
+    cover(clipped(all_spans(scene, q)));
+    outline_.take(scene.scan(), q, shares_);
+    if (shares_.empty()) continue;
+    const std::size_t begin = edges.shares.size();
+    for (const OutlinePixels::Share& share : shares_) {
+      const OutlinePixels::Pixel& p = outline_.pixels()[share.pixel];
+      edges.shares.push_back({static_cast<std::uint8_t>(p.x - left),
+                              static_cast<std::uint8_t>(p.y - top), share.weight, share.x,
+                              share.y});
+    }
+    edges.patches.push_back({q, begin, edges.shares.size()});
+  }
+  for (const OutlinePixels::Pixel& p : outline_.pixels()) {
+    const int x = p.x - window_.x_begin;
+    covered_[p.y - window_.y_begin][x / 64] &= ~(std::uint64_t{1} << x % 64);
+  }
+  find_blank(edges);
+  edges.window = window_;
+}
+
 /// Marks the samples of the spans.
-void BlockPainter::cover() {
+void BlockPainter::cover(std::span<const SampleSpan> spans) {
   const auto bits_before = [](int x) {
     return x <= 0 ? 0 : x >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << x) - 1;
   };
-  for (const SampleSpan& s : spans_) {
-    for (int i = s.x_begin / 64; 64 * i < s.x_end; ++i) {
-      covered_[s.y][i] |= bits_before(s.x_end - 64 * i) & ~bits_before(s.x_begin - 64 * i);
+  for (const SampleSpan& s : spans) {
+    const int begin = s.x_begin - window_.x_begin, end = s.x_end - window_.x_begin;
+    for (int i = begin / 64; 64 * i < end; ++i) {
+      covered_[s.y - window_.y_begin][i] |=
+          bits_before(end - 64 * i) & ~bits_before(begin - 64 * i);
     }
   }
 }
 
-void BlockPainter::clear_uncovered() {
-  for (int y = 0; y < window_.y_end - window_.y_begin; ++y) {
+/// Lists what is not marked.
+void BlockPainter::find_blank(BlockEdges& edges) {
+  edges.blank.clear();
+  const int left = window_.x_begin & (kBlockSide - 1), top = window_.y_begin & (kBlockSide - 1);
+  for (int y = 0; y < height(); ++y) {
     for (int x = 0; x < width();) {
       const std::uint64_t rest = covered_[y][x / 64] >> x % 64;
       if (rest & 1) {
@@ -121,26 +153,46 @@ void BlockPainter::clear_uncovered() {
       }
       const int free = std::min(std::countr_zero(rest), 64 - x % 64);
       const int end = std::min(x + free, width());
-      for (int k = 0; k < channels(); ++k) {
-        float* const row = layer_.channel[k] + y * layer_.stride;
-        std::fill(row + x, row + end, 0.0f);
-      }
+      edges.blank.push_back({top + y, left + x, left + end});
       x = end;
     }
   }
 }
 
-/// Those of the window.
-void BlockPainter::find_spans(const LayerScene& scene, int patch) {
-  if (!scene.spans().has(patch)) return outlines_.spans(patch, spans_);
-  spans_.clear();
-  const auto all = scene.spans().of(patch);
-  auto s = std::ranges::lower_bound(all, window_.y_begin, {}, &SampleSpan::y);
-  for (; s != all.end() && s->y < window_.y_end; ++s) {
-    const int begin = std::max(s->x_begin, window_.x_begin) - window_.x_begin;
-    const int end = std::min(s->x_end, window_.x_end) - window_.x_begin;
-    if (begin < end) spans_.push_back({s->y - window_.y_begin, begin, end});
+void BlockPainter::clear_blank(const BlockEdges& edges) {
+  const int left = window_.x_begin & (kBlockSide - 1), top = window_.y_begin & (kBlockSide - 1);
+  for (const SampleSpan& s : edges.blank) {
+    const int y = s.y - top;
+    const int begin = std::max(s.x_begin - left, 0), end = std::min(s.x_end - left, width());
+    if (y < 0 || y >= height() || begin >= end) continue;
+    for (int k = 0; k < channels(); ++k) {
+      float* const row = layer_.channel[k] + y * layer_.stride;
+      std::fill(row + begin, row + end, 0.0f);
+    }
   }
+}
+
+/// All spans of a patch that are kept, or those in the window.
+std::span<const SampleSpan> BlockPainter::all_spans(const LayerScene& scene, int patch) {
+  if (scene.spans().has(patch)) return scene.spans().of(patch);
+  outlines_.spans(patch, spans_);
+  for (SampleSpan& s : spans_) {
+    s = {s.y + window_.y_begin, s.x_begin + window_.x_begin, s.x_end + window_.x_begin};
+  }
+  return spans_;
+}
+
+/// The parts in the window; rows of the spans in any order.
+std::span<const SampleSpan> BlockPainter::clipped(std::span<const SampleSpan> spans) {
+  clipped_.clear();
+  for (const SampleSpan& s : spans) {
+    const int begin = std::max(s.x_begin, window_.x_begin);
+    const int end = std::min(s.x_end, window_.x_end);
+    if (begin < end && s.y >= window_.y_begin && s.y < window_.y_end) {
+      clipped_.push_back({s.y, begin, end});
+    }
+  }
+  return clipped_;
 }
 
 void BlockPainter::flush(PatchShader& shader) {
@@ -153,133 +205,49 @@ void BlockPainter::flush(PatchShader& shader) {
 }
 
 void BlockPainter::paint_interior(const LayerScene& scene, int patch) {
+  const SampleWindow bounds = scene.scan().bounds(patch), part = intersection(bounds, window_);
+  if (part.empty()) return;
+  const auto spans = all_spans(scene, patch);
   PatchShader shader(scene, patch);
-  const SampleWindow bounds = scene.scan().bounds(patch);
-  const int least = std::min(bounds.x_end - bounds.x_begin, bounds.y_end - bounds.y_begin);
-  // Blocks fit and pay where a patch is some times larger, wherever the window is cut.
-  int largest = kBlockSides[0];
-  while (largest >= kSmallest && 3 * largest > least) largest /= 2;
-  if (largest < kSmallest) {
-    paint_points(shader, spans_);
-  } else {
-    paint_blocks(shader, intersection(bounds, window_), largest);
+  if (!scene.plans().has(patch)) planner_.plan(shader, bounds, spans, plan_);
+  const BlockPlan& plan = scene.plans().has(patch) ? scene.plans().of(patch) : plan_;
+  for (const BlockPlan::Block& block : plan.blocks) {
+    const SampleWindow square = {block.x, block.y, block.x + block.side, block.y + block.side};
+    if (intersection(square, window_).empty()) continue;
+    paint_block(
+        block.nodes, scene.patches().opaque, block.side,
+        {block.x, block.y, spans.subspan(block.begin, block.end - block.begin), window_, layer_});
   }
+  const auto points = plan.blocks.empty() ? spans : std::span(plan.points);
+  paint_points(shader, part == bounds ? points : clipped(points));
 }
 
 void BlockPainter::paint_points(PatchShader& shader, std::span<const SampleSpan> spans) {
-  const int left = window_.x_begin - shader.origin()[0], top = window_.y_begin - shader.origin()[1];
   while (!spans.empty()) {
-    const int taken = append_spans(spans, left, top, layer_.stride, points_->colors, points_->runs);
+    const int taken = append_spans(spans, shader.origin(), {window_.x_begin, window_.y_begin},
+                                   layer_.stride, points_->colors, points_->runs);
     points_->run_count += taken;
     spans = spans.subspan(taken);
     flush(shader);
   }
 }
 
-/// By the largest blocks on the absolute grids whose polynomials are good enough.
-void BlockPainter::paint_blocks(PatchShader& shader, const SampleWindow& part, int largest) {
-  find_bands();
-  tried_.clear();
-  for (int y = part.y_begin / largest * largest; y < part.y_end; y += largest) {
-    for (int x = part.x_begin / largest * largest; x < part.x_end; x += largest) {
-      tried_.push_back({x, y});
-    }
-  }
-  for (int side = largest;; side /= 2) {
-    paint_fitting(shader, side);
-    if (side == kSmallest) break;
-    const int half = side / 2;
-    for (std::size_t i = 0, count = tried_.size(); i < count; ++i) {
-      const auto [x, y] = tried_[i];
-      tried_.insert(tried_.end(), {{x + half, y}, {x, y + half}, {x + half, y + half}});
-    }
-  }
-  if (!tried_.empty()) paint_rest(shader);
-}
-
-/// Paints the blocks tried, of this side, that fit; the others remain.
-void BlockPainter::paint_fitting(PatchShader& shader, int side) {
-  blocks_.clear();
-  inside_.clear();
-  std::size_t count = 0;
-  for (const Corner& c : tried_) {
-    const auto spans = spans_in(c.x, c.y, side);
-    if (spans.empty()) continue;
-    tried_[count++] = c;
-    inside_.push_back(spans);
-    blocks_.push_back({static_cast<float>(c.x - shader.origin()[0]),
-                       static_cast<float>(c.y - shader.origin()[1])});
-  }
-  std::array<bool, kBlocks * kBlocks> fit;
-  shader.judge(side, blocks_, fit.data());
-  std::size_t rest = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Corner& c = tried_[i];
-    const BlockTarget target = {c.x - window_.x_begin, c.y - window_.y_begin, inside_[i], layer_};
-    if (!fit[i] || !shader.paint(side, blocks_[i], target)) tried_[rest++] = c;
-  }
-  tried_.resize(rest);
-}
-
-/// Sorts the spans into bands as high as the smallest blocks.
-void BlockPainter::find_bands() {
-  bands_.fill({0, 0, 0, 0});
-  const int first = window_.y_begin / kSmallest * kSmallest - window_.y_begin;
-  for (int i = 0; i < static_cast<int>(spans_.size()); ++i) {
-    const SampleSpan& s = spans_[i];
-    Band& band = bands_[(s.y - first) / kSmallest];
-    if (band.begin == band.end) band = {i, i, s.x_begin, s.x_end};
-    band.end = i + 1;
-    band.x_begin = std::min(band.x_begin, s.x_begin);
-    band.x_end = std::max(band.x_end, s.x_end);
-  }
-}
-
-/// The rows of spans that may reach into a block; empty when none does.
-std::span<const SampleSpan> BlockPainter::spans_in(int x, int y, int side) const {
-  const int left = x - window_.x_begin;
-  const int first = y / kSmallest - window_.y_begin / kSmallest;
-  int begin = 0, end = 0;
-  for (int i = std::max(first, 0); i < std::min(first + side / kSmallest, kBlocks); ++i) {
-    const Band& band = bands_[i];
-    if (band.begin == band.end || band.x_begin >= left + side || band.x_end <= left) continue;
-    if (begin == end) begin = band.begin;
-    end = band.end;
-  }
-  return {spans_.data() + begin, spans_.data() + end};
-}
-
-/// Point by point what lies in the smallest blocks tried.
-void BlockPainter::paint_rest(PatchShader& shader) {
-  rest_.clear();
-  for (const Corner& c : tried_) {
-    const int left = c.x - window_.x_begin;
-    for (const SampleSpan& s : spans_in(c.x, c.y, kSmallest)) {
-      const int begin = std::max(s.x_begin, left), end = std::min(s.x_end, left + kSmallest);
-      if (begin < end) rest_.push_back({s.y, begin, end});
-    }
-  }
-  paint_points(shader, rest_);
-}
-
 void BlockPainter::paint_outline(PatchShader& shader) {
   ColorBatch& batch = points_->colors;
-  for (std::size_t begin = 0; begin < shares_.size(); begin += ColorBatch::kCapacity) {
-    batch.count =
-        static_cast<int>(std::min<std::size_t>(ColorBatch::kCapacity, shares_.size() - begin));
+  const int left = window_.x_begin - shader.origin()[0], top = window_.y_begin - shader.origin()[1];
+  for (std::size_t begin = 0; begin < seen_.size(); begin += ColorBatch::kCapacity) {
+    const auto part = std::span(seen_).subspan(
+        begin, std::min<std::size_t>(ColorBatch::kCapacity, seen_.size() - begin));
+    batch.count = static_cast<int>(part.size());
     for (int i = 0; i < batch.count; ++i) {
-      const OutlinePixels::Share& share = shares_[begin + i];
-      const OutlinePixels::Pixel& p = outline_.pixels()[share.pixel];
-      batch.x[i] = static_cast<float>(p.x - shader.origin()[0]) + share.x;
-      batch.y[i] = static_cast<float>(p.y - shader.origin()[1]) + share.y;
+      batch.x[i] = static_cast<float>(left + part[i].column) + part[i].x;
+      batch.y[i] = static_cast<float>(top + part[i].row) + part[i].y;
     }
     shader.shade(batch);
     for (int i = 0; i < batch.count; ++i) {
-      const OutlinePixels::Share& share = shares_[begin + i];
-      const OutlinePixels::Pixel& p = outline_.pixels()[share.pixel];
-      const std::ptrdiff_t at = (p.y - window_.y_begin) * layer_.stride + (p.x - window_.x_begin);
+      const std::ptrdiff_t at = part[i].row * layer_.stride + part[i].column;
       for (int k = 0; k < channels(); ++k) {
-        layer_.channel[k][at] += batch.color[k][i] * share.weight;
+        layer_.channel[k][at] += batch.color[k][i] * part[i].weight;
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "block_colors.h"
+#include "block_edges.h"
 #include "layer_scene.h"
 #include "outline_pixels.h"
 #include "pixel_packer.h"
@@ -36,17 +37,6 @@ class BlockPainter {
     int run_count = 0;
   };
   static constexpr int kWords = kBlockSide / 64;
-  static constexpr int kSmallest = kBlockSides[2];
-  static constexpr int kBlocks = kBlockSide / kSmallest;  // in a row of a block of samples
-
-  /// The spans of some rows and the range of columns that they reach into.
-  struct Band {
-    int begin, end, x_begin, x_end;
-  };
-  /// The first sample of a block of colours.
-  struct Corner {
-    int x, y;
-  };
 
   SampleWindow window_;
   bool with_alpha_ = true;
@@ -58,31 +48,28 @@ class BlockPainter {
   std::array<std::array<std::uint64_t, kWords>, kBlockSide> covered_;
   OutlinePixels outline_;
   std::vector<OutlinePixels::Share> shares_;
+  std::vector<BlockEdges::Share> seen_;  // shares of one patch in the window
   std::unique_ptr<Pending> points_;
-  std::array<Band, kBlocks> bands_;
-  std::vector<SampleSpan> rest_;
-  std::vector<Corner> tried_;       // blocks of the current patch
-  std::vector<ColorBlock> blocks_;  // those tried, and their rows
-  std::vector<std::span<const SampleSpan>> inside_;
+  std::vector<SampleSpan> clipped_;
+  BlockPlanner planner_;
+  BlockPlan plan_;  // of the current patch in the window, where none is kept
 
   int width() const { return window_.x_end - window_.x_begin; }
+  int height() const { return window_.y_end - window_.y_begin; }
   int channels() const { return with_alpha_ ? 4 : 3; }
   void clear(SamplePlanes& planes);
   void merge_layer();
-  void cover();
-  void clear_uncovered();
-  void find_spans(const LayerScene& scene, int patch);
+  void find_edges(const LayerScene& scene, std::span<const int> patches, BlockEdges& edges);
+  void cover(std::span<const SampleSpan> spans);
+  void find_blank(BlockEdges& edges);
+  void clear_blank(const BlockEdges& edges);
+  std::span<const SampleSpan> all_spans(const LayerScene& scene, int patch);
+  std::span<const SampleSpan> clipped(std::span<const SampleSpan> spans);
   void paint_layer(const LayerScene& scene, std::span<const int> patches);
-  /// Of the spans found in the window.
   void paint_interior(const LayerScene& scene, int patch);
   void paint_points(PatchShader& shader, std::span<const SampleSpan> spans);
-  void paint_blocks(PatchShader& shader, const SampleWindow& part, int largest);
-  void find_bands();
-  void paint_fitting(PatchShader& shader, int side);
-  void paint_rest(PatchShader& shader);
-  std::span<const SampleSpan> spans_in(int x, int y, int side) const;
   void flush(PatchShader& shader);
-  /// Of the shares found.
+  /// Of the shares seen.
   void paint_outline(PatchShader& shader);
 };
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
+#include "patch_shader.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
@@ -12,6 +14,7 @@ namespace {
 constexpr std::size_t kRange = 512;            // patches worked on at a time
 constexpr std::size_t kMostPoints = 1u << 22;  // of outlines that are kept, 16 bytes each
 constexpr std::size_t kMostSpans = 1u << 22;   // 12 bytes each
+constexpr std::size_t kMostPlanBytes = std::size_t{192} << 20;
 
 }  // namespace
 
@@ -66,12 +69,17 @@ void LayerScene::find_wanted() {
 void LayerScene::prepare(const std::array<double, 2>& scale, const SampleWindow& window,
                          WorkArena& arena) {
   if (scale == scale_ && window == window_) return;
-  if (scale != scale_ || scan_.point_count() > kMostPoints || spans_.span_count() > kMostSpans) {
+  if (scale != scale_ || scan_.point_count() > kMostPoints || spans_.span_count() > kMostSpans ||
+      plan_bytes_ > kMostPlanBytes) {
     scale_ = {0, 0};  // until everything is done
     to_samples_ = Eigen::Scaling(scale[0], scale[1]) * layer_.transform;
     from_samples_ = to_samples_.inverse();
     scan_.start(to_samples_);
     spans_.start(boxes_.size());
+    edges_.clear();
+    plans_.start(boxes_.size());
+    plan_bytes_ = 0;
+    views_.assign(boxes_.size(), {});
   }
   window_ = window;
   find_wanted();
@@ -80,12 +88,31 @@ void LayerScene::prepare(const std::array<double, 2>& scale, const SampleWindow&
   scan_.add(wanted_, for_each);
   spans_.add(scan_, wanted_, for_each);
   bins_.fill(scan_, wanted_, window);
+  edges_.start(window);
   scale_ = scale;
 }
 
 void LayerScene::prepare_programs(WorkArena& arena) {
   programs_.add(layer_.patches, wanted_,
                 [&](std::size_t count, const auto& body) { arena.for_each(count, body); });
+  for (const int q : wanted_) {
+    if (!views_[q].known) views_[q] = PatchView(program(q), to_samples_, from_samples_);
+  }
+  unplanned_.clear();
+  std::ranges::copy_if(wanted_, std::back_inserter(unplanned_),
+                       [&](int q) { return spans_.has(q) && !plans_.has(q); });
+  constexpr std::size_t kPlanned = 64;
+  arena.for_each((unplanned_.size() + kPlanned - 1) / kPlanned, [&](std::size_t r) {
+    BlockPlanner& planner = planners_.local();
+    BlockPlan plan;
+    const std::size_t end = std::min(unplanned_.size(), (r + 1) * kPlanned);
+    for (std::size_t i = r * kPlanned; i < end; ++i) {
+      const int q = unplanned_[i];
+      planner.plan(PatchShader(*this, q), scan_.bounds(q), spans_.of(q), plan);
+      plans_.set(q, plan);
+    }
+  });
+  for (const int q : unplanned_) plan_bytes_ += plans_.bytes(q);
 }
 
 }  // namespace quadrille

@@ -30,10 +30,9 @@ struct Parameters {
 
 /// One step of Newton's method from (s, t) toward the normalized point (x, y). `sound` where the
 /// geometry does not fold there, `arrived` where by the program's bounds the end is the root to
-/// 1 / `strictness` of what they allow. `norm` is the square of the Frobenius norm of the
-/// Jacobian's inverse at (s, t).
+/// 1 / `strictness` of what they allow.
 struct NewtonStep {
-  V s, t, frobenius, determinant;
+  V s, t;
   Mask sound, arrived;
 };
 HWY_INLINE NewtonStep newton_step(const PatchProgram& p, const V& x, const V& y, const V& s,
@@ -70,11 +69,7 @@ HWY_INLINE NewtonStep newton_step(const PatchProgram& p, const V& x, const V& y,
   const V norm = frobenius * (inverse * inverse);
   const V bound = hn::Max(number(p.newton_bound * p.newton_bound),
                           length * number(p.color_bound * p.color_bound * strictness * strictness));
-  return {s + step_s,
-          t + step_t,
-          frobenius,
-          determinant,
-          determinant > hn::Zero(Floats()),
+  return {s + step_s, t + step_t, determinant > hn::Zero(Floats()),
           norm * (length * bound) <= number(1)};
 }
 

@@ -9,10 +9,14 @@ int floor_block(int sample) {
 
 }  // namespace
 
+SampleWindow blocks_of(const SampleWindow& window) {
+  return {floor_block(window.x_begin), floor_block(window.y_begin),
+          floor_block(window.x_end - 1) + 1, floor_block(window.y_end - 1) + 1};
+}
+
 void PatchBins::fill(const PatchScan& scan, std::span<const int> wanted,
                      const SampleWindow& window) {
-  blocks_ = {floor_block(window.x_begin), floor_block(window.y_begin),
-             floor_block(window.x_end - 1) + 1, floor_block(window.y_end - 1) + 1};
+  blocks_ = blocks_of(window);
   const auto for_each_block = [&](const auto& visit) {
     for (const int q : wanted) {
       const SampleWindow s = scan.touched(q);

@@ -11,6 +11,9 @@ namespace quadrille {
 /// computed per block does not depend on the region drawn.
 constexpr int kBlockSide = 128;
 
+/// The blocks that a window of samples reaches into.
+SampleWindow blocks_of(const SampleWindow& window);
+
 /// Which patches each block of a window of samples sees.
 class PatchBins {
  public:

@@ -1,26 +1,15 @@
 #include "patch_shader.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace quadrille {
 
 PatchShader::PatchShader(const LayerScene& scene, int patch)
-    : scene_(scene), patch_(patch), program_(scene.program(patch)) {
-  const Eigen::Vector2d middle = scene.to_samples() * program_.center;
-  origin_ = {static_cast<int>(std::floor(middle.x())), static_cast<int>(std::floor(middle.y()))};
-  const Eigen::Matrix2d linear = program_.to_normalized * scene.from_samples().linear();
-  const Eigen::Vector2d offset = linear * (Eigen::Vector2d(origin_[0], origin_[1]) - middle);
-  for (int d = 0; d < 2; ++d) {
-    map_[3 * d] = static_cast<float>(linear(d, 0));
-    map_[3 * d + 1] = static_cast<float>(linear(d, 1));
-    map_[3 * d + 2] = static_cast<float>(offset[d]);
-  }
-}
+    : scene_(scene), patch_(patch), program_(scene.program(patch)), view_(scene.view(patch)) {}
 
 void PatchShader::shade(ColorBatch& batch) {
   if (program_.regular) {
-    invert_points(program_, map_, batch);
+    invert_points(program_, view_.map, batch);
     shade_parameters(program_, scene_.patches().opaque, batch);
     for (int k = 0; k < batch.missing_count; ++k) shade_exactly(batch, batch.missing[k]);
   } else {
@@ -28,15 +17,15 @@ void PatchShader::shade(ColorBatch& batch) {
   }
 }
 
-void PatchShader::judge(int side, std::span<const ColorBlock> blocks, bool* fit) const {
-  std::fill(fit, fit + blocks.size(), false);
+void PatchShader::judge(int side, std::span<const ColorBlock> blocks, std::uint8_t* fit) const {
+  std::fill(fit, fit + blocks.size(), std::uint8_t{0});
   if (program_.regular) {
-    judge_blocks(program_, map_, scene_.patches().opaque, side, blocks, fit);
+    judge_blocks(program_, view_.map, scene_.patches().opaque, side, blocks, fit);
   }
 }
 
-bool PatchShader::paint(int side, const ColorBlock& block, const BlockTarget& target) const {
-  return paint_block(program_, map_, scene_.patches().opaque, side, block, target);
+bool PatchShader::find_nodes(int side, const ColorBlock& block, BlockNodes& nodes) const {
+  return find_block_nodes(program_, view_.map, scene_.patches().opaque, side, block, nodes);
 }
 
 void PatchShader::shade_exactly(ColorBatch& batch, int i) {
@@ -44,7 +33,7 @@ void PatchShader::shade_exactly(ColorBatch& batch, int i) {
     const FergusonPatch patch = ferguson_patch(scene_.patches(), patch_);
     exact_.emplace(Exact{patch, PatchInverse(patch.position)});
   }
-  const Eigen::Vector2d point(batch.x[i] + origin_[0], batch.y[i] + origin_[1]);
+  const Eigen::Vector2d point(batch.x[i] + view_.origin[0], batch.y[i] + view_.origin[1]);
   const Eigen::Vector2d at = exact_->inverse(scene_.from_samples() * point);
   const Color color = exact_->patch.color.at(at.x(), at.y());
   float alpha = 1;

@@ -17,15 +17,15 @@ class PatchShader {
  public:
   PatchShader(const LayerScene& scene, int patch);
 
-  /// A whole sample position near the patch; the points of batches are relative to it.
-  std::array<int, 2> origin() const { return origin_; }
+  /// See PatchView; the points of batches are relative to it.
+  const std::array<int, 2>& origin() const { return view_.origin; }
 
   /// Colours at the batch's points.
   void shade(ColorBatch& batch);
 
-  /// judge_blocks() and paint_block() of the patch.
-  void judge(int side, std::span<const ColorBlock> blocks, bool* fit) const;
-  bool paint(int side, const ColorBlock& block, const BlockTarget& target) const;
+  /// judge_blocks() and find_block_nodes() of the patch.
+  void judge(int side, std::span<const ColorBlock> blocks, std::uint8_t* fit) const;
+  bool find_nodes(int side, const ColorBlock& block, BlockNodes& nodes) const;
 
  private:
   /// For points whose parameters Newton's method does not find.
@@ -37,8 +37,7 @@ class PatchShader {
   const LayerScene& scene_;
   const int patch_;
   const PatchProgram& program_;
-  std::array<int, 2> origin_;
-  float map_[6];
+  const PatchView& view_;
   std::optional<Exact> exact_;
 
   void shade_exactly(ColorBatch& batch, int i);

@@ -19,8 +19,9 @@ constexpr float kMargin = 0.02f;
 /// Vectors that are inverted side by side.
 constexpr int kTogether = 2;
 
-int append(std::span<const SampleSpan> spans, int left, int top, std::ptrdiff_t stride,
-           ColorBatch& batch, PointRun* runs) {
+int append(std::span<const SampleSpan> spans, const std::array<int, 2>& origin,
+           const std::array<int, 2>& first, std::ptrdiff_t stride, ColorBatch& batch,
+           PointRun* runs) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const V centers = hn::Iota(d, 0) + number(0.5f);
@@ -30,13 +31,14 @@ int append(std::span<const SampleSpan> spans, int left, int top, std::ptrdiff_t 
     const SampleSpan& s = spans[taken];
     const int count = s.x_end - s.x_begin;
     if (at + count > ColorBatch::kCapacity) break;
-    const V y = number(static_cast<float>(top + s.y) + 0.5f);
+    const V y = number(static_cast<float>(s.y - origin[1]) + 0.5f);
     // In whole vectors: what is too much is written over.
     for (int i = 0; i < count; i += lanes) {
-      hn::StoreU(centers + number(static_cast<float>(left + s.x_begin + i)), d, batch.x + at + i);
+      hn::StoreU(centers + number(static_cast<float>(s.x_begin - origin[0] + i)), d,
+                 batch.x + at + i);
       hn::StoreU(y, d, batch.y + at + i);
     }
-    runs[taken] = {at, count, s.y * stride + s.x_begin};
+    runs[taken] = {at, count, (s.y - first[1]) * stride + (s.x_begin - first[0])};
     at += count;
   }
   batch.count = at;
@@ -128,9 +130,10 @@ HWY_EXPORT(shade);
 HWY_EXPORT(scatter);
 }  // namespace
 
-int append_spans(std::span<const SampleSpan> spans, int left, int top, std::ptrdiff_t stride,
-                 ColorBatch& batch, PointRun* runs) {
-  return HWY_DYNAMIC_DISPATCH(append)(spans, left, top, stride, batch, runs);
+int append_spans(std::span<const SampleSpan> spans, const std::array<int, 2>& origin,
+                 const std::array<int, 2>& first, std::ptrdiff_t stride, ColorBatch& batch,
+                 PointRun* runs) {
+  return HWY_DYNAMIC_DISPATCH(append)(spans, origin, first, stride, batch, runs);
 }
 
 void invert_points(const PatchProgram& program, const float (&map)[6], ColorBatch& batch) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -30,12 +31,12 @@ struct PointRun {
   std::ptrdiff_t target;
 };
 
-/// Appends the centres of samples of spans; position (left, top) relative to the patch's whole
-/// sample is (0, 0) of the spans, and targets are those of planes with this stride. Returns how
-/// many spans found room, at least one if the batch was empty and no span is longer than its
-/// capacity. Writes one run for each.
-int append_spans(std::span<const SampleSpan> spans, int left, int top, std::ptrdiff_t stride,
-                 ColorBatch& batch, PointRun* runs);
+/// Appends the centres of samples of spans, relative to `origin`; targets are those of planes with
+/// this stride that begin with the sample `first`. Returns how many spans found room, at least one
+/// if the batch was empty and no span is longer than its capacity. Writes one run for each.
+int append_spans(std::span<const SampleSpan> spans, const std::array<int, 2>& origin,
+                 const std::array<int, 2>& first, std::ptrdiff_t stride, ColorBatch& batch,
+                 PointRun* runs);
 
 /// The points' parameters; those of missing points are meaningless. `map` takes points to
 /// normalized ones: x = map[0] x + map[1] y + map[2]. Colours err by at most 1/250 of an 8-bit step

@@ -13,8 +13,8 @@ namespace {
 
 using testing::at_scale;
 using testing::picture_of;
-using testing::random_image;
 using testing::Random;
+using testing::random_image;
 using testing::random_patches;
 using testing::rectangle;
 using testing::set_linear_colors;
@@ -85,6 +85,77 @@ TEST(Render, AveragesOutlinesOfAllSlopesAndShifts) {
   }
   ASSERT_GT(count, 3000);
   EXPECT_LE(sum / static_cast<double>(count), 1.0);
+}
+
+/// A rectangle of 36 x 28 in 4 x 2 patches, torn down the middle, with random colours.
+PatchMesh torn_rectangle(std::uint32_t seed) {
+  QuadMesh mesh = testing::lattice(4, 2, 36, 28);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const int h = mesh.halfedge(e);
+    const bool middle =
+        mesh.vertices[mesh.origin(h)].x() == 18 && mesh.vertices[mesh.tip(h)].x() == 18;
+    if (middle) mesh.edge_flags[e] |= kTearEdge;
+  }
+  PatchMesh patches = straight_patches(std::move(mesh));
+  set_random_colors(patches, seed);
+  return patches;
+}
+
+/// Premultiplied mean of the colours at 16 x 16 points of a pixel, evaluated in the patches
+/// themselves, and on how many points lie left of the tear, right of it, and outside.
+struct PixelTruth {
+  Color mean = Color::Zero();
+  int left = 0, right = 0, outside = 0;
+  bool is_smooth() const { return std::max({left, right, outside}) == 256; }
+};
+PixelTruth truth_of_torn(const std::vector<FergusonPatch>& patches, const Eigen::Affine2d& to_mesh,
+                         int x, int y) {
+  PixelTruth truth;
+  for (int i = 0; i < 256; ++i) {
+    const Eigen::Vector2d p =
+        to_mesh * Eigen::Vector2d(x + (i % 16 + 0.5) / 16, y + (i / 16 + 0.5) / 16);
+    if (p.x() < 0 || p.x() >= 36 || p.y() < 0 || p.y() >= 28) {
+      ++truth.outside;
+      continue;
+    }
+    ++(p.x() < 18 ? truth.left : truth.right);
+    const int column = static_cast<int>(p.x() / 9), row = static_cast<int>(p.y() / 14);
+    const Color c = patches[4 * row + column].color.at(p.x() / 9 - column, p.y() / 14 - row);
+    truth.mean += Color(c.max(0).min(1)) / 256;
+  }
+  return truth;
+}
+
+TEST(Render, AveragesTearsAndOutlinesOfAllSlopesAndShifts) {
+  Random random(41);
+  double tear_sum = 0, outline_sum = 0;
+  long tears = 0, outlines = 0;
+  for (int turn = 0; turn < 48; ++turn) {
+    PatchMesh torn = torn_rectangle(turn);
+    std::vector<FergusonPatch> patches;
+    for (int q = 0; q < torn.patch_count(); ++q) patches.push_back(ferguson_patch(torn, q));
+    VectorImage image = testing::single_layer(std::move(torn), 72, 72);
+    image.layers[0].transform = Eigen::Translation2d(36 + random.uniform(), 36 + random.uniform()) *
+                                Eigen::Rotation2Dd(turn * EIGEN_PI / 24 + 0.01) *
+                                Eigen::Translation2d(-18, -14);
+    const Eigen::Affine2d to_mesh = image.layers[0].transform.inverse();
+    const Raster r = render(image);
+    for (int y = 0; y < r.height; ++y) {
+      for (int x = 0; x < r.width; ++x) {
+        const PixelTruth truth = truth_of_torn(patches, to_mesh, x, y);
+        if (truth.is_smooth()) continue;
+        const float* const p = r.pixel(x, y);
+        const Color drawn(p[0] * p[3], p[1] * p[3], p[2] * p[3], p[3]);
+        const double error = 255 * (drawn - truth.mean).abs().mean();
+        (truth.outside ? outline_sum : tear_sum) += error;
+        ++(truth.outside ? outlines : tears);
+      }
+    }
+  }
+  ASSERT_GT(tears, 1500);
+  ASSERT_GT(outlines, 5000);
+  EXPECT_LE(tear_sum / static_cast<double>(tears), 1.0);
+  EXPECT_LE(outline_sum / static_cast<double>(outlines), 1.0);
 }
 
 TEST(Render, DoesNotTouchAnOutlineBetweenPixels) {
