@@ -24,7 +24,7 @@ struct alignas(64) ProgramBatch {
   ProgramLane middle[2];     ///< of the patch relative to `center`
   ProgramLane linear[2][2];  ///< derivatives in the middle: [coordinate][parameter]
   ProgramLane higher[2][9], start[2][6], weights[4][16], newton_bound, color_bound;
-  ProgramLane steepest, color_curvature;
+  ProgramLane steepest;
   Eigen::Vector2d center[kProgramLanes];
 };
 
@@ -152,20 +152,14 @@ HWY_INLINE V curvature_bound(const V (&q)[2][9]) {
   return hn::Sqrt(sum);
 }
 
-/// Upper bounds for |s|, |t| <= 0.55 of norms of a channel's derivatives.
-struct ColorBounds {
-  V gradient, second;
-};
-
-/// Stores the weights of one channel.
-HWY_INLINE ColorBounds set_channel(const ProgramLane (&value)[4], const V (&du)[4],
-                                   const V (&dv)[4], const V (&duv)[4], ProgramLane (&weights)[16],
-                                   std::size_t i) {
+/// Stores the weights of one channel; an upper bound of its gradient for |s|, |t| <= 0.55.
+HWY_INLINE V set_channel(const ProgramLane (&value)[4], const V (&du)[4], const V (&dv)[4],
+                         const V (&duv)[4], ProgramLane (&weights)[16], std::size_t i) {
   const Cubic rows[4] = {cubic(load(value[0], i), du[0], load(value[1], i), du[1]),
                          cubic(dv[0], duv[0], dv[1], duv[1]),
                          cubic(load(value[3], i), du[3], load(value[2], i), du[2]),
                          cubic(dv[3], duv[3], dv[2], duv[2])};
-  V along_s = hn::Zero(D()), along_t = along_s, ss = along_s, st = along_s, tt = along_s;
+  V along_s = hn::Zero(D()), along_t = along_s;
   constexpr float kPower[4] = {1, 0.55f, 0.3025f, 0.166375f};
   for (int k = 0; k < 4; ++k) {
     const Cubic column = cubic(rows[0].c[k], rows[1].c[k], rows[2].c[k], rows[3].c[k]);
@@ -174,25 +168,20 @@ HWY_INLINE ColorBounds set_channel(const ProgramLane (&value)[4], const V (&du)[
       const V size = hn::Abs(column.c[j]);
       if (k > 0) along_s = along_s + size * number(k * kPower[k - 1] * kPower[j]);
       if (j > 0) along_t = along_t + size * number(j * kPower[k] * kPower[j - 1]);
-      if (k > 1) ss = ss + size * number(k * (k - 1) * kPower[k - 2] * kPower[j]);
-      if (j > 1) tt = tt + size * number(j * (j - 1) * kPower[k] * kPower[j - 2]);
-      if (k > 0 && j > 0) st = st + size * number(k * j * kPower[k - 1] * kPower[j - 1]);
     }
   }
-  return {hn::Sqrt(along_s * along_s + along_t * along_t),
-          hn::Sqrt(ss * ss + tt * tt + number(2) * st * st)};
+  return hn::Sqrt(along_s * along_s + along_t * along_t);
 }
 
-/// Weights of the colour; bounds of all channels.
-HWY_INLINE ColorBounds set_colors(const V (&twist)[2][4], bool opaque, ProgramBatch& batch,
-                                  std::size_t i) {
+/// Weights of the colour; the bound of all channels.
+HWY_INLINE V set_colors(const V (&twist)[2][4], bool opaque, ProgramBatch& batch, std::size_t i) {
   V length[4];  // |P_u| |P_v|, with the sign of the twist
   for (int k = 0; k < 4; ++k) {
     const V ux = load(batch.du[0][k], i), uy = load(batch.du[1][k], i);
     const V vx = load(batch.dv[0][k], i), vy = load(batch.dv[1][k], i);
     length[k] = hn::Sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy)) * load(batch.twist_sign[k], i);
   }
-  ColorBounds most = {hn::Zero(D()), hn::Zero(D())};
+  V steepest = hn::Zero(D());
   for (int c = 0; c < (opaque ? 3 : 4); ++c) {
     V du[4], dv[4], duv[4];
     for (int k = 0; k < 4; ++k) {
@@ -201,10 +190,9 @@ HWY_INLINE ColorBounds set_colors(const V (&twist)[2][4], bool opaque, ProgramBa
       dv[k] = dx * load(batch.dv[0][k], i) + dy * load(batch.dv[1][k], i);
       duv[k] = dx * twist[0][k] + dy * twist[1][k] + load(batch.color_twist[c][k], i) * length[k];
     }
-    const ColorBounds bounds = set_channel(batch.color[c], du, dv, duv, batch.weights[c], i);
-    most = {hn::Max(most.gradient, bounds.gradient), hn::Max(most.second, bounds.second)};
+    steepest = hn::Max(steepest, set_channel(batch.color[c], du, dv, duv, batch.weights[c], i));
   }
-  return most;
+  return steepest;
 }
 
 /// Adini's twists of one coordinate, see patch_geometry().
@@ -240,13 +228,12 @@ void set_up(ProgramBatch& batch, bool opaque) {
     }
     fit_start(q, batch, i);
     const V curvature = curvature_bound(q);
-    const ColorBounds color = set_colors(twist, opaque, batch, i);
-    store(color.gradient, batch.steepest, i);
-    store(color.second, batch.color_curvature, i);
+    const V steepest = set_colors(twist, opaque, batch, i);
+    store(steepest, batch.steepest, i);
     // Where 4 b curvature n <= 1, the root is at most 0.7 b curvature n^2 from the step's end.
     constexpr float kAllowed = 1.0f / 250 / 255;
     store(number(4) * curvature, batch.newton_bound, i);
-    store(number(0.7f / kAllowed) * curvature * color.gradient, batch.color_bound, i);
+    store(number(0.7f / kAllowed) * curvature * steepest, batch.color_bound, i);
   }
 }
 
@@ -304,7 +291,6 @@ void take(const ProgramBatch& batch, int lane, PatchProgram& program) {
   program.newton_bound = batch.newton_bound[lane];
   program.color_bound = batch.color_bound[lane];
   program.steepest = batch.steepest[lane];
-  program.color_curvature = batch.color_curvature[lane];
   const double determinant = linear.determinant();
   program.regular = determinant > 1e-5 * linear.col(0).norm() * linear.col(1).norm() &&
                     std::isfinite(program.newton_bound);

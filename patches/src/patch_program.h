@@ -27,9 +27,8 @@ struct PatchProgram {
   /// b n <= 1 / newton_bound and b n^2 <= 1 / color_bound: by Kantorovich's theorem the root is
   /// then so near that no colour differs by more than 1/250 of an 8-bit step.
   float newton_bound, color_bound;
-  /// Upper bounds of the gradients of the channels and of their second derivatives' Frobenius norms
-  /// for |s|, |t| <= 0.55.
-  float steepest, color_curvature;
+  /// Upper bound of the gradients of the channels for |s|, |t| <= 0.55.
+  float steepest;
   /// False where the patch is degenerate or folded in its middle; Newton's method is not tried
   /// then.
   bool regular;
