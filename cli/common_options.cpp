@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <map>
 
 #include "quadrille/preset.h"
 
@@ -126,45 +125,6 @@ void declare_output(CLI::App& parser, std::filesystem::path& output) {
   parser.add_option("-o,--output", output, "picture to write; its ending chooses the format")
       ->required()
       ->type_name("FILE");
-}
-
-void declare_document_options(CLI::App& parser, DocumentOptions& options) {
-  parser.add_flag_callback(
-      "--lossless", [&] { options.encoding = DocumentEncoding::lossless; },
-      "write .quad documents bit for bit, some 15 times larger");
-}
-
-void declare_svg_options(CLI::App& parser, SvgOptions& options) {
-  static const std::map<std::string, SvgLevel> kLevels = {{"compact", SvgLevel::compact},
-                                                          {"balanced", SvgLevel::balanced},
-                                                          {"faithful", SvgLevel::faithful},
-                                                          {"inkscape", SvgLevel::inkscape}};
-  parser
-      .add_option_function<std::string>(
-          "--svg-level", [&](const std::string& name) { options.level = kLevels.at(name); },
-          "how closely .svg files show the picture, at the price of their size: compact, balanced "
-          "or faithful; or inkscape: mesh gradients to edit in Inkscape, of which other programs "
-          "show flat colours")
-      ->check(CLI::IsMember({"compact", "balanced", "faithful", "inkscape"}))
-      ->default_str("balanced");
-  parser
-      .add_option_function<double>(
-          "--svg-size-limit",
-          [&](double kilobytes) {
-            options.size_limit = static_cast<std::uint64_t>(std::llround(1000 * kilobytes));
-          },
-          "most size of .svg and .svgz files in KB (1000 bytes) as written; searches the colour "
-          "tolerance that fits")
-      ->check(CLI::Range(1.0, 1e9))
-      ->type_name("KB");
-}
-
-void declare_page_options(CLI::App& parser, PdfOptions& options) {
-  parser
-      .add_option("--dpi", options.dpi,
-                  "pixels of the picture per inch of the page, for .pdf, .ps and .eps")
-      ->check(positive_number())
-      ->capture_default_str();
 }
 
 CLI::Validator positive_number() {

@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "observer.h"
-#include "quadrille/document.h"
-#include "quadrille/export.h"
 #include "quadrille/vectorize.h"
 
 namespace quadrille::cli {
@@ -48,14 +46,6 @@ void declare_input(CLI::App& parser, std::filesystem::path& input, const std::st
 void declare_outputs(CLI::App& parser, std::vector<std::filesystem::path>& outputs);
 /// `-o`, exactly once.
 void declare_output(CLI::App& parser, std::filesystem::path& output);
-
-/// --lossless, for `.quad` outputs.
-void declare_document_options(CLI::App& parser, DocumentOptions& options);
-/// --dpi, for `.pdf`, `.ps` and `.eps` outputs.
-void declare_page_options(CLI::App& parser, PdfOptions& options);
-
-/// --svg-level and --svg-size-limit.
-void declare_svg_options(CLI::App& parser, SvgOptions& options);
 
 /// Accepts finite numbers above 0.
 CLI::Validator positive_number();

@@ -2,6 +2,7 @@
 
 #include "command.h"
 #include "common_options.h"
+#include "export_options.h"
 #include "output_files.h"
 #include "quadrille/document.h"
 
@@ -11,10 +12,7 @@ namespace {
 struct ExportRequest {
   std::filesystem::path input;
   std::vector<std::filesystem::path> outputs;
-  double scale = 1;
-  DocumentOptions document;
-  SvgOptions svg;
-  PdfOptions page;
+  ExportOptions files;
   RunOptions run;
 };
 
@@ -22,12 +20,7 @@ int run_export(const ExportRequest& request) {
   check_outputs(request.outputs, request.input, export_endings());
   Observer observer(request.run.verbosity(), request.run.threads);
   const VectorImage image = observer.stage("read", [&] { return load_document(request.input); });
-  ExportOptions options;
-  options.raster.scale = request.scale;
-  options.document = request.document;
-  options.svg = request.svg;
-  options.pdf = request.page;
-  write_outputs(image, request.outputs, options, observer);
+  write_outputs(image, request.outputs, request.files, observer);
   return kSuccess;
 }
 
@@ -37,12 +30,7 @@ Action declare_export(CLI::App& parser) {
   const auto request = std::make_shared<ExportRequest>();
   declare_input(parser, request->input, ".quad document");
   declare_outputs(parser, request->outputs);
-  parser.add_option("--scale", request->scale, "output pixels per source pixel, for pixel formats")
-      ->check(positive_number())
-      ->capture_default_str();
-  declare_document_options(parser, request->document);
-  declare_svg_options(parser, request->svg);
-  declare_page_options(parser, request->page);
+  declare_export_options(parser, request->files);
   declare_run_options(parser, request->run);
   return [request] { return run_export(*request); };
 }

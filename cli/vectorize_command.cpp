@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "common_options.h"
+#include "export_options.h"
 #include "output_files.h"
 #include "picture_input.h"
 #include "quadrille/render.h"
@@ -20,11 +21,8 @@ struct VectorizeRequest {
   fs::path input;
   std::vector<fs::path> outputs;
   fs::path report;
-  double scale = 1;
+  ExportOptions files;
   std::optional<double> max_error;
-  DocumentOptions document;
-  SvgOptions svg;
-  PdfOptions page;
   MeshOptions mesh;
   RunOptions run;
 };
@@ -64,7 +62,7 @@ int run_vectorize(const VectorizeRequest& request) {
   Observer observer(request.run.verbosity(), request.run.threads);
 
   const Raster picture = read_raster(request.input, observer);
-  check_scale(picture, request.scale);
+  check_scale(picture, request.files.raster.scale);
   MeshOptions mesh = request.mesh;
   if (request.max_error) mesh.quads.reset();
   const ChosenOptions chosen = choose_options(mesh, picture, observer);
@@ -73,12 +71,7 @@ int run_vectorize(const VectorizeRequest& request) {
                         : BoundedVectorization{vectorize_picture(picture, request.input,
                                                                  chosen.vectorize, observer)};
   const Vectorization& result = bounded.result;
-  ExportOptions options;
-  options.raster.scale = request.scale;
-  options.document = request.document;
-  options.svg = request.svg;
-  options.pdf = request.page;
-  write_outputs(result.image, request.outputs, options, observer);
+  write_outputs(result.image, request.outputs, request.files, observer);
 
   if (request.report.empty() && request.run.verbosity() != Verbosity::verbose) return kSuccess;
   const Measurement measurement = measure(result.image, picture, observer);
@@ -108,12 +101,7 @@ Action declare_vectorize(CLI::App& parser) {
                   "200000")
       ->check(positive_number())
       ->check(CLI::Range(0.0, 255.0));
-  parser.add_option("--scale", request->scale, "output pixels per source pixel, for pixel formats")
-      ->check(positive_number())
-      ->capture_default_str();
-  declare_document_options(parser, request->document);
-  declare_svg_options(parser, request->svg);
-  declare_page_options(parser, request->page);
+  declare_export_options(parser, request->files);
   parser.add_option("--report", request->report, "write what the run measured as JSON")
       ->type_name("FILE.json");
   declare_run_options(parser, request->run);

@@ -9,9 +9,6 @@
 namespace quadrille {
 namespace {
 
-/// Most parts of a column or row of quads.
-constexpr int kMostDivisions = 4;
-
 /// A grid as seen along its rows (or columns), with the lines that cross these.
 struct View {
   const PlacedGrid& grid;
@@ -80,8 +77,7 @@ GridDivisions divisions_of(const PlacedGrid& grid, bool bicubic, double toleranc
   if (bicubic) return result;
   for (int j = 0; j < grid.rows(); ++j) {
     for (int i = 0; i < grid.columns(); ++i) {
-      const Divisions wished =
-          bilinear_divisions(grid.color(i, j), tolerance / 255, {kMostDivisions, kMostDivisions});
+      const Divisions wished = bilinear_divisions(grid.color(i, j), tolerance / 255);
       result.columns[i] = std::max(result.columns[i], wished.u);
       result.rows[j] = std::max(result.rows[j], wished.v);
     }

@@ -98,8 +98,8 @@ class InkscapeSvgWriter {
          << "\" viewBox=\"0 0 " << w << ' ' << h << "\" role=\"img\">\n"
          << "<title>" << xml_escaped(title) << "</title>\n";
     for (std::size_t k = 0; k < image_.layers.size(); ++k) {
-      out_ << "<g id=\"layer-" << k + 1 << "\">\n<title>" << xml_escaped(image_.layers[k].name)
-           << "</title>\n";
+      out_ << "<g id=\"layer-" << to_text(static_cast<long long>(k + 1)) << "\">\n<title>"
+           << xml_escaped(image_.layers[k].name) << "</title>\n";
       write_layer(image_.layers[k]);
       out_ << "</g>\n";
     }
@@ -109,7 +109,7 @@ class InkscapeSvgWriter {
  private:
   void write_layer(const Layer& layer) {
     const QuadMesh& mesh = layer.patches.mesh;
-    // As for the layers of other SVG files: half the tolerance is as good as nothing or all.
+    // Half the tolerance is as good as nothing or all.
     const std::vector<PatchOpacity> opacity =
         patch_opacities(layer.patches, 0.5 * kTolerance / 255);
     std::vector<unsigned char> kinds(opacity.size());

@@ -117,12 +117,12 @@ class PdfBuilder {
   }
 
   static std::string filled(const std::string& path) {
-    const std::string scale = to_text(1.0 / PaintedLayer::kPathUnits);
+    const std::string scale = fixed(1.0 / PaintedLayer::kPathUnits);
     return "q\n" + scale + " 0 0 " + scale + " 0 0 cm\n" + path + "f\nQ\n";
   }
 
   std::string page_rectangle() const {
-    return "0 0 " + to_text(image_.width) + ' ' + to_text(image_.height);
+    return "0 0 " + fixed(image_.width) + ' ' + fixed(image_.height);
   }
 
   /// A transparency group over the page.

@@ -51,14 +51,6 @@ Sets sides_of_tears(const QuadMesh& mesh, const std::vector<char>& painted) {
 
 }  // namespace
 
-std::vector<int> PaintGroups::quads_of(int wanted) const {
-  std::vector<int> quads;
-  for (std::size_t q = 0; q < group.size(); ++q) {
-    if (group[q] == wanted) quads.push_back(static_cast<int>(q));
-  }
-  return quads;
-}
-
 PaintGroups paint_groups(const QuadMesh& mesh, const std::vector<char>& painted) {
   Sets sets = sides_of_tears(mesh, painted);
   std::vector<std::pair<int, int>> neighbours;  // sets on the two sides of a tear

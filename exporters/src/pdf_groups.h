@@ -19,8 +19,6 @@ struct PaintGroups {
   /// Whether something else cuts the picture off at the border of the mesh, and toward patches that
   /// are not painted; patches then reach beyond these edges.
   bool open_border = false, open_unpainted = false;
-
-  std::vector<int> quads_of(int wanted) const;
 };
 
 /// The groups of the painted quads; the edges toward all others are left closed.

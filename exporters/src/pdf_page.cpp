@@ -1,18 +1,16 @@
 #include "pdf_page.h"
 
-#include <cmath>
-
 #include "quadrille/error.h"
 #include "svg_text.h"
 
 namespace quadrille {
 
 void check_page_options(const PdfOptions& options) {
-  const auto good = [](double number) { return number > 0 && std::isfinite(number); };
-  if (good(options.dpi) && good(options.tolerance)) return;
+  if (options.dpi >= 1 && options.dpi <= 10000 && options.tolerance >= 0.5) return;
   throw Error(ErrorCode::invalid_argument, "the PDF options dpi = " + to_text(options.dpi) +
                                                " and tolerance = " + to_text(options.tolerance) +
-                                               " must be positive numbers; use 96 and 2");
+                                               " are not within 1 to 10000 and from 0.5 up; use 96"
+                                               " and 2");
 }
 
 PageSize page_size(const VectorImage& image, const PdfOptions& options) {

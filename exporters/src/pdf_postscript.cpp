@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <ostream>
@@ -74,7 +75,7 @@ class PostScriptWriter {
                       });
       for (const PaintStep& step : layer.color) write_step(step, layer.grid);
     }
-    out_ << "grestore\nshowpage\n%%EOF\n";
+    out_ << "grestore\nshowpage\nend\n%%EOF\n";
   }
 
  private:
@@ -87,8 +88,10 @@ class PostScriptWriter {
          << "%%BoundingBox: 0 0 " << whole(size_.width) << ' ' << whole(size_.height)
          << "\n%%HiResBoundingBox: 0 0 " << fixed(size_.width) << ' ' << fixed(size_.height)
          << "\n%%EndComments\n%%BeginProlog\n"
+         << "/quadrille 8 dict def quadrille begin\n"  // leaves an including file's names alone
          << "/m {moveto} bind def /l {lineto} bind def\n"
-         << "/c {curveto} bind def /h {closepath} bind def\n%%EndProlog\n%%Page: 1 1\n";
+         << "/c {curveto} bind def /h {closepath} bind def\nend\n%%EndProlog\n%%Page: 1 1\n"
+         << "quadrille begin\n";
     if (!encapsulated_) {
       out_ << "<< /PageSize [" << fixed(size_.width) << ' ' << fixed(size_.height)
            << "] >> setpagedevice\n";

@@ -37,7 +37,7 @@ Deviation polyline_deviation(const std::array<Color, 4>& curve, int parts) {
   return deviation;
 }
 
-constexpr int kCounts[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32};
+constexpr int kCounts[] = {1, 2, 3, 4};
 constexpr int kCountCount = static_cast<int>(std::size(kCounts));
 using Deviations = std::array<Deviation, kCountCount>;
 
@@ -109,13 +109,12 @@ double chord_distance(const PlaneCurve& curve) {
   return 0.75 * farthest;
 }
 
-Divisions bilinear_divisions(const BicubicBezier<Color>& color, double tolerance,
-                             const Divisions& limit) {
+Divisions bilinear_divisions(const BicubicBezier<Color>& color, double tolerance) {
   const Deviations along_u = deviations_along(color, true);
   const Deviations along_v = deviations_along(color, false);
-  Divisions best = limit;
-  for (int i = 0; i < kCountCount && kCounts[i] <= limit.u; ++i) {
-    for (int j = 0; j < kCountCount && kCounts[j] <= limit.v; ++j) {
+  Divisions best = {kCounts[kCountCount - 1], kCounts[kCountCount - 1]};
+  for (int i = 0; i < kCountCount; ++i) {
+    for (int j = 0; j < kCountCount; ++j) {
       // The deviations of the two directions add up at worst, and are about independent on average.
       const Deviation &du = along_u[i], &dv = along_v[j];
       const bool fits = du.largest + dv.largest <= 2 * tolerance &&

@@ -56,10 +56,9 @@ struct Divisions {
   int u = 1, v = 1;
 };
 
-/// About the fewest equal parts per direction, within the limits, with which bilinear interpolation
-/// of the parts' corner colours stays near the patch's colour, clamped to [0, 1]: within half of
-/// `tolerance` in the root mean square and within twice of it anywhere. The limits where none do.
-Divisions bilinear_divisions(const BicubicBezier<Color>& color, double tolerance,
-                             const Divisions& limit);
+/// About the fewest equal parts, at most 4 per direction, with which bilinear interpolation of the
+/// parts' corner colours stays near the patch's colour, clamped to [0, 1]: within half of
+/// `tolerance` in the root mean square and within twice of it anywhere. 4 x 4 where none do.
+Divisions bilinear_divisions(const BicubicBezier<Color>& color, double tolerance);
 
 }  // namespace quadrille

@@ -86,7 +86,7 @@ class SvgWriter {
       const int region = layer.region(*begin);
       const auto end =
           std::find_if(begin, quads.end(), [&](int q) { return layer.region(q) != region; });
-      out_ << "<g id=\"region-" << ++region_count_ << "\">\n";
+      out_ << "<g id=\"region-" << to_text(static_cast<long long>(++region_count_)) << "\">\n";
       write_cells(layer, {begin, end}, CellPaint::color);
       out_ << "</g>\n";
       begin = end;

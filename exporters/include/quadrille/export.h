@@ -34,16 +34,18 @@ enum class SvgLevel {
 struct SvgOptions {
   SvgLevel level = SvgLevel::balanced;
   /// Most bytes of the file as written, 0 for any: where the level takes more, a larger tolerance,
-  /// up to 128, is searched that fits. None for the level inkscape.
+  /// up to 128, is searched that fits. The level inkscape allows none.
   std::uint64_t size_limit = 0;
   std::string title = "Quadrille picture";
 };
 
 /// For PDF and PostScript.
 struct PdfOptions {
-  double dpi = 96;  ///< source pixels per inch; decides the page size
+  /// Source pixels per inch, 1 to 10000; decides the page size. Acrobat shows pages of up to 14,400
+  /// points, which are 19,200 pixels at 96.
+  double dpi = 96;
   /// Colour error of a patch in 8-bit steps, at most half of it in the root mean square and at most
-  /// twice of it anywhere, but for details below a pixel.
+  /// twice of it anywhere, but for details below a pixel; at least 0.5.
   double tolerance = 2;
   std::string title = "Quadrille picture";
 };
@@ -74,7 +76,8 @@ void write_svg(const VectorImage& image, const std::filesystem::path& path,
                const SvgOptions& options = {}, const RunContext& context = {});
 /// One page of native Coons patch shadings (type 6): geometry exact to a sixteenth of a pixel,
 /// colours bilinear in the cells of each patch. Tears, outlines and alpha are soft masks,
-/// anti-aliased at any scale.
+/// anti-aliased at any scale. Throws Error{invalid_argument} for options out of range, as
+/// write_postscript() does.
 void write_pdf(const VectorImage& image, const std::filesystem::path& path,
                const PdfOptions& options = {}, const RunContext& context = {});
 /// PostScript of language level 3, encapsulated where the path ends in .eps: the shadings of

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "quadrille/export.h"
+
+namespace quadrille::cli {
+
+/// What outputs of any format are written with: --scale, --lossless, --svg-level, --svg-size-limit
+/// and --dpi. A size limit at the level inkscape is a wrong command line.
+void declare_export_options(CLI::App& parser, ExportOptions& options);
+
+}  // namespace quadrille::cli
