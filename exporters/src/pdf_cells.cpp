@@ -13,6 +13,9 @@ namespace {
 constexpr double kSmallestSide = 1;
 constexpr int kCounts[] = {1, 2, 3, 4, 6, 8, 12, 24};
 constexpr int kCountCount = static_cast<int>(std::size(kCounts));
+/// Added before colours are cut off to whole steps: MuPDF and Ghostscript cut off the colours of
+/// pixels in turn, which darkens them by half a step, the others round; this lies between.
+constexpr float kRounding = 0.625f;
 /// Counts below this index are fitted to the coarse samples, all of them to the fine ones.
 constexpr int kCoarseCounts = 6, kCoarseSamples = 24 + 2, kFineSamples = 72 + 2;
 
@@ -154,7 +157,7 @@ Fit fitted(const Target& target, const HatBasis& u, const HatBasis& v) {
   Fit fit;
   for (int c = 0; c < target.channels; ++c) {
     const Eigen::MatrixXf nodes = u.fit * target.channel[c] * v.fit.transpose();
-    fit.nodes[c] = nodes.array().max(0.0f).min(255.0f).round();
+    fit.nodes[c] = (nodes.array() + kRounding).max(0.0f).min(255.0f).floor();
     Samples error = (u.hats * fit.nodes[c] * v.hats.transpose() - target.channel[c]).cwiseAbs();
     if (target.weighted) error = error.cwiseProduct(target.weight);
     fit.mean_squared += error.squaredNorm() / double(target.channels * error.size());

@@ -37,6 +37,9 @@ class CellTable {
   const Node& node(int quad, int i, int j) const {
     return nodes_[first_[quad] + j * (counts_[quad][0] + 1) + i];
   }
+  Node& node(int quad, int i, int j) {
+    return nodes_[first_[quad] + j * (counts_[quad][0] + 1) + i];
+  }
 
  private:
   std::vector<std::array<std::uint8_t, 2>> counts_;

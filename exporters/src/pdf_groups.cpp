@@ -142,6 +142,12 @@ std::vector<EdgeLoop> group_region(const QuadMesh& mesh, const PaintGroups& grou
     const int quad = QuadMesh::quad_of(h);
     if (groups.group[quad] > group && touched[mesh.origin(h)]) inside[quad] = 1;
   }
+  // A patch may lie smoothly beside some of the group and across a tear from others.
+  for (int h = 0; h < mesh.halfedge_count(); ++h) {
+    const bool ends = groups.group[QuadMesh::quad_of(h)] == group &&
+                      across(mesh, groups, h) == Across::outside && mesh.twin(h) >= 0;
+    if (ends) inside[QuadMesh::quad_of(mesh.twin(h))] = 0;
+  }
   return border_of(mesh, inside);
 }
 

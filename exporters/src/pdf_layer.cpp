@@ -7,6 +7,7 @@
 
 #include "arena_size.h"
 #include "patch_opacity.h"
+#include "pdf_agree.h"
 #include "pdf_region_path.h"
 
 namespace quadrille {
@@ -92,6 +93,7 @@ class LayerPainter {
       for (int i = begin; i < end; ++i) table.add(quads[i], chunk[i - begin]);
       report(0.5 * end / total);
     }
+    agree_at_shared_sides(layer_.patches, groups, tolerance_, table);
     return table;
   }
 

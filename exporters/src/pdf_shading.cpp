@@ -15,9 +15,9 @@ using Geometry = BicubicHermite<Vector2d>;
 
 /// In pixels: how far patches overlap their neighbours, twice the step of the grid; how far they go
 /// on beyond the page, and beyond edges that are cut off with anti-aliasing or hidden.
-constexpr double kOverlap = 0.125, kBeyondPage = 0.25, kBeyondEdge = 0.75;
+constexpr double kOverlap = 0.125, kBeyondPage = 0.5, kBeyondEdge = 0.75;
 /// The same in parameters of a patch, at most.
-constexpr double kWidestOverlap = 1.0 / 16, kWidestReach = 0.5;
+constexpr double kWidestOverlap = 0.25, kWidestReach = 0.5;
 
 struct GridPoint {
   std::uint32_t x = 0, y = 0;

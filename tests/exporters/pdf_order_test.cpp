@@ -37,6 +37,25 @@ TEST(PaintGroups, PatchesBesideAStraightTearAreInDifferentGroups) {
   EXPECT_FALSE(group_region(mesh, groups, 1).empty());
 }
 
+TEST(PaintGroups, ARegionEndsAtATearThoughThePatchBeyondLiesSmoothlyBesideTheGroup) {
+  QuadMesh mesh = testing::lattice(2, 2, 2, 2);
+  PaintGroups groups;
+  groups.group = {1, 1, 1, 0};
+  groups.count = 2;
+  groups.open_border = true;
+  int tear = -1;
+  for (int h = 4; h < 8; ++h) {
+    if (mesh.twin(h) >= 12) tear = h;
+  }
+  ASSERT_GE(tear, 0);
+  mesh.edge_flags[mesh.edge(tear)] |= kTearEdge;
+  const auto region = group_region(mesh, groups, 1);
+  const auto has_tear = [&](const EdgeLoop& loop) {
+    return std::find(loop.begin(), loop.end(), tear) != loop.end();
+  };
+  EXPECT_TRUE(std::any_of(region.begin(), region.end(), has_tear));
+}
+
 TEST(PaintGroups, BordersCloseAroundAnySetOfQuads) {
   const QuadMesh mesh = testing::lattice(7, 5, 7, 5);
   testing::Random random(3);
