@@ -83,6 +83,7 @@ class OutlineBuilder {
   SvgOutline build() {
     const BicubicBezier<Vector2d> part = sub_patch(bezier_, box_);
     if (is_plain(part)) return build_plain(part);
+    for (int k = 0; k < 4; ++k) outline_.is_exact |= !is_smooth_seam(k);
     for (int k = 0; k < 4; ++k) {
       add_corner(k);
       if (has_flange(k)) {
