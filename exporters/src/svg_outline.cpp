@@ -12,13 +12,14 @@ using Geometry = BicubicHermite<Vector2d>;
 
 /// Farthest that a straight line may be from the curve it stands for, in pixels: along the outline
 /// of the mesh and tears, along seams of smooth colour, and where later cells hide it.
-constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.6, kHiddenFlatness = 0.25;
+constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.25, kHiddenFlatness = 0.25;
 /// The bleed ends at this part of the width of a patch at the latest: beyond it may lie something
 /// that is painted earlier.
 constexpr double kDeepestBleed = 0.5;
-/// How far a seam may be from its chord where corners alone are moved for the bleed, in bleeds; and
-/// the least sine of the angle between a side and the next along which a corner moves.
-constexpr double kPlainFlatness = 0.6, kLeastSlope = 0.5;
+/// How far a seam may be from its chord where corners alone are moved for the bleed, in bleeds, and
+/// where no bleed goes across it, in pixels; and the least sine of the angle between a side and the
+/// next along which a corner moves.
+constexpr double kPlainFlatness = 0.6, kPlainSeamFlatness = 0.6, kLeastSlope = 0.5;
 /// Points of an outline nearer than this to the line past them are left out, in pixels.
 constexpr double kStraightness = 0.06;
 
@@ -82,6 +83,7 @@ class OutlineBuilder {
   SvgOutline build() {
     const BicubicBezier<Vector2d> part = sub_patch(bezier_, box_);
     if (is_plain(part)) return build_plain(part);
+    for (int k = 0; k < 4; ++k) outline_.is_exact |= !is_smooth_seam(k);
     for (int k = 0; k < 4; ++k) {
       add_corner(k);
       if (has_flange(k)) {
@@ -96,13 +98,15 @@ class OutlineBuilder {
 
  private:
   /// True when moving the corners is bleed enough: the sides with bleed are about straight, and
-  /// the cell touches neither the outline nor a tear, across which paint must not go.
+  /// neither the cell nor the patches under which it bleeds touch the outline or a tear, across
+  /// which paint must not go.
   bool is_plain(const BicubicBezier<Vector2d>& part) const {
     for (int k = 0; k < 4; ++k) {
-      if (has_flange(k) && chord_distance(side_curve(part, k)) > kPlainFlatness * bleed_) {
-        return false;
-      }
       if (!is_smooth_seam(k)) return false;
+      if (has_flange(k)) {
+        if (chord_distance(side_curve(part, k)) > kPlainFlatness * bleed_) return false;
+        if (!has_smooth_sides(QuadMesh::quad_of(layer_.mesh().twin(4 * quad_ + k)))) return false;
+      }
       const int before = (k + 3) & 3;
       const bool at_vertex = on_border(before) && on_border(k);
       if (at_vertex && (has_flange(before) || has_flange(k)) && !is_plain_vertex(4 * quad_ + k)) {
@@ -112,11 +116,18 @@ class OutlineBuilder {
     return true;
   }
 
+  bool has_smooth_sides(int quad) const {
+    for (int h = 4 * quad; h < 4 * quad + 4; ++h) {
+      if (!is_smooth(h)) return false;
+    }
+    return true;
+  }
+
   /// True when all around the origin of half-edge h colours are smooth.
   bool is_plain_vertex(int h) const {
     const QuadMesh& mesh = layer_.mesh();
     for (const int around : mesh.fan(mesh.origin(h))) {
-      if (mesh.twin(around) < 0 || mesh.is_tear(mesh.edge(around)) ||
+      if (!is_smooth(around) ||
           layer_.opacity(QuadMesh::quad_of(around)) != layer_.opacity(quad_)) {
         return false;
       }
@@ -134,7 +145,7 @@ class OutlineBuilder {
       if (has_flange(k)) corner += across(k, sides[before][3] - sides[before][0], sides[k]);
       if (has_flange(before)) corner += across(before, sides[k][0] - sides[k][3], sides[before]);
       add_point(corner);
-      if (!has_flange(k) && !is_hidden(k)) add_side(k, sides[k]);
+      if (!has_flange(k) && !is_hidden(k)) add_curve(sides[k], kPlainSeamFlatness);
     }
     outline_.pieces.erase(outline_.pieces.begin());
     return std::move(outline_);
@@ -144,9 +155,11 @@ class OutlineBuilder {
   Vector2d across(int k, const Vector2d& direction, const PlaneCurve& side) const {
     const Vector2d along = (side[3] - side[0]).normalized(), step = direction.normalized();
     const auto [first, last] = side_range(k);
-    const double middle = 0.5 * (first + last);
-    const Vector2d seam = at(geometry_, on_side(k, middle, 0));
-    const double depth = std::min(bleed_, (beyond(k, middle) - seam).norm());
+    double depth = bleed_;  // less where the later patch is thin
+    for (const double s : {first, 0.5 * (first + last), last}) {
+      const Vector2d seam = at(geometry_, on_side(k, s, 0));
+      depth = std::min(depth, (beyond(k, s) - seam).norm());
+    }
     const double outward = step.x() * along.y() - step.y() * along.x();
     if (!(outward > kLeastSlope)) return depth * Vector2d(along.y(), -along.x());
     return depth / outward * step;
@@ -178,9 +191,8 @@ class OutlineBuilder {
   bool is_hidden(int k) const {
     return !on_border(k) && ((k == 1 && box_.u1 > cell_.u1) || (k == 2 && box_.v1 > cell_.v1));
   }
-  bool is_smooth_seam(int k) const {
-    if (!on_border(k)) return true;
-    const int h = 4 * quad_ + k;
+  bool is_smooth_seam(int k) const { return !on_border(k) || is_smooth(4 * quad_ + k); }
+  bool is_smooth(int h) const {
     return layer_.mesh().twin(h) >= 0 && !layer_.mesh().is_tear(layer_.mesh().edge(h));
   }
 
@@ -202,6 +214,10 @@ class OutlineBuilder {
     const double flatness = is_hidden(k)        ? kHiddenFlatness
                             : is_smooth_seam(k) ? kSeamFlatness
                                                 : kExactFlatness;
+    add_curve(curve, flatness);
+  }
+
+  void add_curve(const PlaneCurve& curve, double flatness) {
     add_point(curve[0]);
     if (chord_distance(curve) <= flatness) {
       add_point(curve[3]);

@@ -15,6 +15,7 @@ struct SvgOutline {
     Eigen::Vector2d control1, control2;  ///< of a cubic
     Eigen::Vector2d end;
   };
+  bool is_exact = false;  ///< runs along the outline of the mesh or a tear: nothing covers its end
   Eigen::Vector2d start = {0, 0};
   std::vector<Piece> pieces;
 };

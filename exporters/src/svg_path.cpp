@@ -25,22 +25,25 @@ void extend(Eigen::AlignedBox2d& box, const PlaneCurve& p) {
 
 }  // namespace
 
-SvgPathData::Point SvgPathData::to_units(const Eigen::Vector2d& p) const {
-  return {std::llround(p.x() * units_), std::llround(p.y() * units_)};
+SvgPathData::Point SvgPathData::to_quarters(const Eigen::Vector2d& p, bool is_exact) const {
+  const int step = is_exact ? 1 : kQuarters;
+  const double scale = double(units_) * kQuarters / step;
+  return {step * std::llround(p.x() * scale), step * std::llround(p.y() * scale)};
 }
 
 void SvgPathData::append(const SvgOutline& outline) {
-  const Point start = to_units(outline.start);
+  const auto place = [&](const Eigen::Vector2d& p) { return to_quarters(p, outline.is_exact); };
+  const Point start = place(outline.start);
   command_ = 0;  // each subpath says its own m
   write('m', {start - at_});
   at_ = start;
   bounds_.extend(start.cast<double>());
   for (std::size_t i = 0; i < outline.pieces.size(); ++i) {
     const SvgOutline::Piece& piece = outline.pieces[i];
-    const Point end = to_units(piece.end);
+    const Point end = place(piece.end);
     const bool closes = i + 1 == outline.pieces.size() && end == start;  // as filling does
     if (!piece.is_line) {
-      cubic_to(to_units(piece.control1), to_units(piece.control2), end);
+      cubic_to(place(piece.control1), place(piece.control2), end);
     } else if (end != at_ && !closes) {
       line_to(end);
     }
@@ -48,7 +51,8 @@ void SvgPathData::append(const SvgOutline& outline) {
 }
 
 Eigen::AlignedBox2d SvgPathData::bounds() const {
-  return {bounds_.min() / units_, bounds_.max() / units_};
+  const double scale = 1.0 / (units_ * kQuarters);
+  return {bounds_.min() * scale, bounds_.max() * scale};
 }
 
 void SvgPathData::line_to(const Point& target) {
@@ -87,7 +91,7 @@ void SvgPathData::write(char command, std::initializer_list<Point> points) {
 
 void SvgPathData::write_number(long long number, bool separate) {
   if (separate && number >= 0) text_ += ' ';
-  text_ += to_text(number);
+  text_ += to_short_text(double(number) / kQuarters, 2);
 }
 
 }  // namespace quadrille

@@ -7,7 +7,8 @@
 
 namespace quadrille {
 
-/// Path data of outlines with coordinates as integers, in units of a part of a pixel.
+/// Path data of outlines with coordinates as integers, in units of a part of a pixel; those of
+/// exact outlines in quarters of it.
 class SvgPathData {
  public:
   explicit SvgPathData(int units_per_pixel) : units_(units_per_pixel) {}
@@ -19,14 +20,15 @@ class SvgPathData {
   Eigen::AlignedBox2d bounds() const;
 
  private:
-  using Point = Eigen::Matrix<long long, 2, 1>;
+  using Point = Eigen::Matrix<long long, 2, 1>;  ///< in quarters of the unit
+  static constexpr int kQuarters = 4;
 
   void write(char command, std::initializer_list<Point> points);
   void write_number(long long number, bool separate);
   void line_to(const Point& target);
   void cubic_to(const Point& control1, const Point& control2, const Point& end);
 
-  Point to_units(const Eigen::Vector2d& p) const;
+  Point to_quarters(const Eigen::Vector2d& p, bool is_exact) const;
 
   int units_;  ///< per pixel
   std::string text_;

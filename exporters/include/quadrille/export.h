@@ -27,7 +27,8 @@ struct RasterFileOptions {
 enum class SvgLevel {
   compact,   ///< t = 4
   balanced,  ///< t = 1.5
-  faithful,  ///< t = 0.8, and coordinates to 1/16 of a pixel instead of 1/8
+  faithful,  ///< t = 0.8, and coordinates to 1/16 of a pixel instead of 1/8 (both four times
+             ///< finer along tears and the outline)
   inkscape,  ///< mesh gradients that Inkscape draws and edits; others show flat colours
 };
 
