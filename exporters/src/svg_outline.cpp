@@ -16,6 +16,8 @@ constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.25, kHiddenFlatness = 
 /// The bleed ends at this part of the width of a patch at the latest: beyond it may lie something
 /// that is painted earlier.
 constexpr double kDeepestBleed = 0.5;
+/// How far a bleed may lead askew where the sides of a patch meet at a small angle, in bleeds.
+constexpr double kLongestBleed = 3;
 /// How far a seam may be from its chord where corners alone are moved for the bleed, in bleeds, and
 /// where no bleed goes across it, in pixels; and the least sine of the angle between a side and the
 /// next along which a corner moves.
@@ -40,12 +42,14 @@ Vector2d on_side(int k, double s, double depth) {
 Vector2d at(const Geometry& g, const Vector2d& uv) { return g.at(uv.x(), uv.y()); }
 
 /// How far the parameter may run from uv, across lines of constant u (or v), to cover `distance`
-/// pixels; at most kDeepestBleed.
+/// pixels; at most kDeepestBleed and kLongestBleed.
 double parameter_step(const Geometry& g, const Vector2d& uv, bool along_u, double distance) {
   const Vector2d du = g.derivative_u(uv.x(), uv.y()), dv = g.derivative_v(uv.x(), uv.y());
   const double area = std::abs(du.x() * dv.y() - du.y() * dv.x());
-  const double other = along_u ? dv.norm() : du.norm();
-  return area * kDeepestBleed > distance * other ? distance * other / area : kDeepestBleed;
+  const double own = along_u ? du.norm() : dv.norm(), other = along_u ? dv.norm() : du.norm();
+  const double depth =
+      area * kDeepestBleed > distance * other ? distance * other / area : kDeepestBleed;
+  return depth * own > kLongestBleed * distance ? kLongestBleed * distance / own : depth;
 }
 
 /// The point `distance` pixels inside side k at `s`.
