@@ -206,7 +206,8 @@ void write_pdf(const VectorImage& image, const std::filesystem::path& path,
   try {
     bytes = PdfBuilder(image, options, context).build();
   } catch (const QPDFExc& error) {
-    throw Error(ErrorCode::numerical_failure, std::string("the PDF cannot be put together (") +
+    throw Error(ErrorCode::numerical_failure, "cannot write '" + path.string() +
+                                                  "': the PDF cannot be put together (" +
                                                   error.what() + "); report the picture");
   }
   write_stream_atomically(path, [&](std::ostream& file) {

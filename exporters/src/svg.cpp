@@ -1,6 +1,6 @@
 #include <cmath>
-#include <fstream>
-#include <utility>
+#include <ostream>
+#include <string>
 
 #include "ending.h"
 #include "gzip_stream.h"
@@ -9,7 +9,6 @@
 #include "quadrille/error.h"
 #include "quadrille/export.h"
 #include "svg_size.h"
-#include "svg_text.h"
 #include "svg_writer.h"
 
 namespace quadrille {
@@ -40,9 +39,13 @@ LevelDetail detail_of(SvgLevel level) {
 
 class SvgFile {
  public:
-  SvgFile(const VectorImage& image, const SvgOptions& options, const RunContext& context,
-          bool compressed)
-      : image_(image), options_(options), context_(context), compressed_(compressed) {}
+  SvgFile(const VectorImage& image, const std::filesystem::path& path, const SvgOptions& options,
+          const RunContext& context)
+      : image_(image),
+        path_(path),
+        options_(options),
+        context_(context),
+        compressed_(lower_case_ending(path) == ".svgz") {}
 
   void write(double tolerance, std::ostream& out) const {
     if (!compressed_) return write_text(tolerance, out);
@@ -61,8 +64,9 @@ class SvgFile {
     const std::uint64_t least = size(coarse);
     if (least > options_.size_limit) {
       throw Error(ErrorCode::limit_exceeded,
-                  "the SVG file takes at least " + to_text(std::ceil(double(least) / 1000)) +
-                      " KB, above the limit of " + to_text(double(options_.size_limit) / 1000) +
+                  "cannot write '" + path_.string() + "': it takes at least " +
+                      std::to_string((least + 999) / 1000) + " KB, above the limit of " +
+                      std::to_string(options_.size_limit / 1000) +
                       " KB; allow more, or use fewer quads");
     }
     for (int round = 0; round < kSearchRounds; ++round) {
@@ -88,6 +92,7 @@ class SvgFile {
   }
 
   const VectorImage& image_;
+  const std::filesystem::path& path_;
   const SvgOptions& options_;
   const RunContext& context_;
   bool compressed_;
@@ -98,12 +103,12 @@ class SvgFile {
 void write_svg(const VectorImage& image, const std::filesystem::path& path,
                const SvgOptions& options, const RunContext& context) {
   if (options.level == SvgLevel::inkscape && options.size_limit != 0) {
-    throw Error(
-        ErrorCode::invalid_argument,
-        "the SVG level inkscape has no tolerance to search for a size limit; leave the limit "
-        "out, or choose another level");
+    throw Error(ErrorCode::invalid_argument,
+                "cannot write '" + path.string() +
+                    "': the SVG level inkscape has no tolerance to search for a size limit; leave "
+                    "the limit out, or choose another level");
   }
-  const SvgFile svg(image, options, context, lower_case_ending(path) == ".svgz");
+  const SvgFile svg(image, path, options, context);
   write_stream_atomically(path, [&](std::ostream& file) { svg.write(svg.tolerance(), file); });
 }
 

@@ -279,6 +279,16 @@ TEST_F(Pdf, TransparencyIsKept) {
   EXPECT_GT(difference(image, output("transparent.pdf"), 4).psnr, 36);
 }
 
+/// 100000 is 1e5 in few characters, which is no number in PDF.
+TEST_F(Pdf, RoundSizesOfTransparentPicturesAreNumbers) {
+  PatchMesh patches = testing::random_patches(3, 2, 100000, 8, 3);
+  testing::set_random_colors(patches, 5, false);
+  patches.opaque = false;
+  std::string log;
+  save(testing::single_layer(std::move(patches), 100000, 8), output("wide.pdf"));
+  EXPECT_EQ(test::run({"qpdf", "--check", output("wide.pdf")}, &log), 0) << log;
+}
+
 TEST_F(Pdf, APictureOfOneQuad) {
   const VectorImage image = random_picture(true, 1, 1);
   const fs::path pdf = output("one.pdf"), stem = output("one");
