@@ -14,6 +14,7 @@
 #include "quadrille/metrics.h"
 #include "quadrille/render.h"
 #include "quadrille/vectorize.h"
+#include "scratch_folder.h"
 
 namespace quadrille::bench {
 namespace {
@@ -35,21 +36,18 @@ Json quality(const VectorImage& image, const Raster& picture, const RunContext& 
 }
 
 Json file_sizes(const VectorImage& image, const RunContext& context) {
-  std::string pattern = (fs::temp_directory_path() / "quadrille_bench_XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a temporary folder");
-  const fs::path folder = pattern;
+  const ScratchFolder folder;
   Json sizes;
   for (const std::string& ending : export_endings()) {
     if (ending != ".quad" && ending != ".svg" && ending != ".pdf" && ending != ".glb" &&
         ending != ".vtu") {
       continue;
     }
-    const fs::path file = folder / ("picture" + ending);
+    const fs::path file = folder.path / ("picture" + ending);
     export_image(image, file, {}, context);
     sizes[ending] = fs::file_size(file);
     if (ending == ".svg") sizes[".svg.gz"] = gzip_size(file);
   }
-  fs::remove_all(folder);
   return sizes;
 }
 

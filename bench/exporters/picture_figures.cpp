@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <map>
 
@@ -16,6 +15,7 @@
 #include "quadrille/image_file.h"
 #include "quadrille/metrics.h"
 #include "quadrille/render.h"
+#include "scratch_folder.h"
 
 namespace quadrille::bench {
 namespace {
@@ -24,25 +24,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kRivalsReference = "resvg";
-
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (fs::temp_directory_path() / "quadrille_bench_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) {
-      throw Error(ErrorCode::io_failure, "cannot make a temporary folder");
-    }
-    path = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  fs::path path;
-};
 
 void write_pixmap(const Raster& picture, const fs::path& path) {
   std::ofstream file(path, std::ios::binary);

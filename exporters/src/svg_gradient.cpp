@@ -1,10 +1,8 @@
 #include "svg_gradient.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "svg_ridge.h"

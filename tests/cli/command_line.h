@@ -27,6 +27,11 @@ std::vector<std::string> files_in(const std::filesystem::path& folder);
 
 std::string bytes_of(const std::filesystem::path& file);
 
+std::vector<std::string> join(std::vector<std::string> a, const std::vector<std::string>& b);
+
+/// Exit code 0 and nothing said, not even by a progress bar, as outputs are no terminals.
+void expect_silent_success(const CommandResult& result);
+
 /// True for exactly one line that starts as our complaints do.
 bool is_one_complaint(const std::string& err);
 

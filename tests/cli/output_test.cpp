@@ -26,17 +26,6 @@ std::vector<std::string> every_output(const fs::path& folder) {
   return arguments;
 }
 
-std::vector<std::string> join(std::vector<std::string> a, const std::vector<std::string>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-void expect_silent_success(const CommandResult& result) {
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.out, "");
-  EXPECT_EQ(result.err, "");  // no progress bar in a pipe
-}
-
 void expect_same_files(const fs::path& a, const fs::path& b) {
   ASSERT_EQ(files_in(a), files_in(b));
   for (const std::string& name : files_in(a)) {
@@ -127,36 +116,6 @@ TEST_F(Output, ScaleSetsTheSizeOfPixelFormats) {
   expect_silent_success(
       quadrille({"render", document(), "-o", (folder / "b.png").string(), "--width", "375"}));
   EXPECT_TRUE(bytes_of(folder / "a.png") == bytes_of(folder / "b.png"));
-}
-
-TEST_F(Output, SvgLevelsDifferInSizeAndKeepALimit) {
-  const fs::path folder = fresh_folder("svg_levels");
-  const auto size_of = [&](const std::string& name, const std::vector<std::string>& options) {
-    const fs::path file = folder / name;
-    expect_silent_success(quadrille(join({"export", document(), "-o", file.string()}, options)));
-    return fs::file_size(file);
-  };
-  const auto compact = size_of("compact.svg", {"--svg-level", "compact"});
-  const auto balanced = size_of("balanced.svg", {});
-  const auto faithful = size_of("faithful.svg", {"--svg-level", "faithful"});
-  EXPECT_LT(compact, balanced);
-  EXPECT_LT(balanced, faithful);
-  const auto limit = (compact + balanced) / 2 / 1000;
-  const auto limited = size_of("limited.svg", {"--svg-size-limit", std::to_string(limit)});
-  EXPECT_LE(limited, limit * 1000);
-  EXPECT_GT(limited, compact / 2);
-  EXPECT_LT(size_of("compressed.svgz", {}), balanced / 2);
-  size_of("meshes.svg", {"--svg-level", "inkscape"});
-  EXPECT_NE(bytes_of(folder / "meshes.svg").find("<meshgradient"), std::string::npos);
-}
-
-TEST_F(Output, DpiSetsThePageSize) {
-  const fs::path page = fresh_folder("dpi") / "page.eps";
-  for (const auto& [dpi, width] : {std::pair("72", "250"), {"36", "500"}}) {
-    expect_silent_success(quadrille({"export", document(), "-o", page.string(), "--dpi", dpi}));
-    const auto box = std::string("%%BoundingBox: 0 0 ") + width + ' ';
-    EXPECT_NE(bytes_of(page).find(box), std::string::npos) << dpi;
-  }
 }
 
 TEST_F(Output, ARegionIsTheCropOfTheWhole) {
