@@ -15,9 +15,11 @@ struct Pair {
   CellTable cells{2};
 
   Pair(std::uint8_t left, std::uint8_t right, int right_rows) {
-    cells.add(0, {{1, 1}, std::vector<Node>(4, Node{left, left, left})});
-    cells.add(
-        1, {{1, right_rows}, std::vector<Node>(2 * (right_rows + 1), Node{right, right, right})});
+    const Node node = {left, left, left};
+    cells.add(0, {{1, 1}, {node, node, node, node}});
+    std::vector<Node> nodes;
+    for (int i = 0; i < 2 * (right_rows + 1); ++i) nodes.push_back({right, right, right});
+    cells.add(1, {{1, right_rows}, nodes});
     agree_at_shared_sides(patches, paint_groups(patches.mesh, {1, 1}), 3, cells);
   }
 };

@@ -25,13 +25,6 @@ constexpr double kWidth = 144, kHeight = 96;
 
 class Pdf : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const std::vector<std::string> endings = export_endings();
-    if (std::find(endings.begin(), endings.end(), ".pdf") == endings.end()) {
-      GTEST_SKIP() << "built without PDF";
-    }
-  }
-
   fs::path output(const std::string& name) const { return test::scratch_dir() / name; }
 };
 
@@ -47,7 +40,6 @@ std::string bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// By way of export_image, so that the test also links where PDF is left out.
 void save(const VectorImage& image, const fs::path& pdf, const PdfOptions& options = {},
           const RunContext& context = {}) {
   ExportOptions all;
