@@ -23,42 +23,13 @@ inline constexpr CornerPlace kCornerPlaces[4] = {{0, 1, 4, kThird, kThird},
 /// Products of the binomial coefficients 1 3 3 1: of a corner, beside it, and diagonally.
 inline constexpr float kBeside = 3, kDiagonal = 9;
 
-/// Exchanges rows and columns of both halves, blocks of 4 x 4.
-QUADRILLE_INLINE void transpose_blocks(const Lanes (&in)[4], Lanes (&out)[4]) {
-  const Lanes low01 = __builtin_shufflevector(in[0], in[1], 0, 8, 1, 9, 4, 12, 5, 13);
-  const Lanes high01 = __builtin_shufflevector(in[0], in[1], 2, 10, 3, 11, 6, 14, 7, 15);
-  const Lanes low23 = __builtin_shufflevector(in[2], in[3], 0, 8, 1, 9, 4, 12, 5, 13);
-  const Lanes high23 = __builtin_shufflevector(in[2], in[3], 2, 10, 3, 11, 6, 14, 7, 15);
-  out[0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
-  out[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
-  out[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
-  out[3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
-}
-
-/// Loads four channels of one unknown of kLaneCount wedges.
-QUADRILLE_INLINE void gather(const WedgeUnknowns* x, const int* wedges, int unknown,
-                             Lanes (&channel)[4]) {
-  using Four = float __attribute__((vector_size(16)));
-  Four part[kLaneCount];
-#pragma GCC unroll 8
-  for (int p = 0; p < kLaneCount; ++p) {
-    std::memcpy(&part[p], x[wedges[p]].data() + 4 * unknown, sizeof part[p]);
-  }
-  Lanes row[4];
-#pragma GCC unroll 4
-  for (int p = 0; p < 4; ++p) {
-    row[p] = __builtin_shufflevector(part[p], part[p + 4], 0, 1, 2, 3, 4, 5, 6, 7);
-  }
-  transpose_blocks(row, channel);
-}
-
 /// Loads all unknowns of the corners of kLaneCount patches, channel by channel.
 QUADRILLE_INLINE void gather_corners(const ElementGroup& group, const WedgeUnknowns* x,
                                      CornerLanes (&corners)[4]) {
   for (int k = 0; k < 4; ++k) {
     for (int unknown = 0; unknown < 4; ++unknown) {
       Lanes channel[4];
-      gather(x, group.wedges[k], unknown, channel);
+      load_channels([&](int p) { return x[group.wedges[k][p]].data() + 4 * unknown; }, channel);
 #pragma GCC unroll 4
       for (int c = 0; c < 4; ++c) corners[c][k][unknown] = channel[c];
     }

@@ -49,13 +49,15 @@ void add_batch(const ControlColors& model, int channels, const FitBatch& batch, 
     sextic_powers(v, sextic_v[g]);
 #pragma GCC unroll 7
     for (Lanes& power : sextic_v[g]) power *= weight;
+    Lanes color[4];
+    load_channels([&](int p) { return batch.color[kLaneCount * g + p].data(); }, color);
     for (int c = 0; c < channels; ++c) {
-      Lanes color;
-      load(batch.color[c] + kLaneCount * g, color);
-      difference(model[c], cubic_u[g], cubic_v[g], color, residual[c][g]);
+      difference(model[c], cubic_u[g], cubic_v[g], color[c], residual[c][g]);
       residual[c][g] *= weight;
     }
   }
+  Lanes moments[padded_count(49)];
+  for (int i = 49; i < padded_count(49); ++i) moments[i] = Lanes{};
   for (int q = 0; q < 7; ++q) {
     Lanes sum[7] = {};
     for (int g = 0; g < groups; ++g) {
@@ -63,8 +65,9 @@ void add_batch(const ControlColors& model, int channels, const FitBatch& batch, 
       for (int p = 0; p < 7; ++p) sum[p] += sextic_u[g][p] * sextic_v[g][q];
     }
 #pragma GCC unroll 7
-    for (int p = 0; p < 7; ++p) sums.moments[7 * q + p] += sum_of(sum[p]);
+    for (int p = 0; p < 7; ++p) moments[7 * q + p] = sum[p];
   }
+  add_sums<49>(moments, sums.moments);
   for (int c = 0; c < channels; ++c) {
     add_products(groups, residual[c], cubic_u, cubic_v, sums.residual[c]);
   }

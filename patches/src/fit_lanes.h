@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lanes.h"
+#include "quadrille/patch_mesh.h"
 
 namespace quadrille {
 
@@ -11,7 +12,7 @@ struct FitBatch {
 
   int count = 0;  ///< a multiple of kLaneCount; samples of weight 0 fill up
   alignas(64) float u[kSize], v[kSize], weight[kSize];
-  alignas(64) float color[4][kSize];  ///< what the patch ought to show
+  Color color[kSize];  ///< what the patch ought to show
 };
 
 /// Control colours of a patch in Bezier form, by channel; 4 j + i weighs B_i(u) B_j(v).

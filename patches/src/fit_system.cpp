@@ -37,12 +37,11 @@ void add_samples(const SampleBlock& samples, int local, const Raster& picture,
       batch.v[i] = samples.v[sample];
       const std::uint32_t pixel = samples.pixel[sample];
       batch.weight[i] = i < count && !mixed.contains(pixel) ? 1.0f : 0.0f;
-      const Color color = premultiplied_pixel(picture, pixel);
-      for (int c = 0; c < 4; ++c) batch.color[c][i] = color[c];
+      batch.color[i] = premultiplied_pixel(picture, pixel);
     }
     for (; exception != samples.exceptions.end() && exception->sample < first + count;
          ++exception) {
-      for (int c = 0; c < 4; ++c) batch.color[c][exception->sample - first] = exception->color[c];
+      batch.color[exception->sample - first] = exception->color;
     }
     add_batch(model, picture.channels, batch, sums);
   }

@@ -23,6 +23,10 @@ constexpr float kStiffnessFloor = 1e-9f;
 /// Whether corner k lies at parameter 1.
 constexpr int kAtU[4] = {0, 1, 1, 0}, kAtV[4] = {0, 0, 1, 1};
 
+Color pixel_at(const float* p, int channels) {
+  return {p[0], p[1], p[2], channels == 4 ? p[3] : 0.0f};
+}
+
 /// The samples of one pixel for the batch: the residual, and the gradient of `mean` as the
 /// difference of two neighbours over their distance; at the picture's sides the pixel itself stands
 /// for the neighbour that is missing.
@@ -32,17 +36,11 @@ void add_pixel(const Raster& picture, const Raster& mean, std::size_t pixel, int
   const std::ptrdiff_t row = std::ptrdiff_t{1} * mean.width * channels;
   const float* const here = mean.data.data() + pixel * channels;
   const bool left = x > 0, right = x + 1 < mean.width, above = y > 0, below = y + 1 < mean.height;
-  const float* const l = here - (left ? channels : 0);
-  const float* const r = here + (right ? channels : 0);
-  const float* const a = here - (above ? row : 0);
-  const float* const b = here + (below ? row : 0);
   const float across = left && right ? 0.5f : 1.0f, down = above && below ? 0.5f : 1.0f;
-  const Color color = premultiplied_pixel(picture, pixel);
-  for (int c = 0; c < channels; ++c) {
-    batch.gradient[c][0][i] = (r[c] - l[c]) * across;
-    batch.gradient[c][1][i] = (b[c] - a[c]) * down;
-    batch.residual[c][i] = 2 * (color[c] - here[c]);
-  }
+  const auto at = [&](std::ptrdiff_t step) { return pixel_at(here + step, channels); };
+  batch.gradient[0][i] = (at(right ? channels : 0) - at(left ? -channels : 0)) * across;
+  batch.gradient[1][i] = (at(below ? row : 0) - at(above ? -row : 0)) * down;
+  batch.residual[i] = 2 * (premultiplied_pixel(picture, pixel) - at(0));
 }
 
 /// Adds the samples of the block's patch number `local` to the sums: those at mixed pixels, or the
@@ -53,10 +51,8 @@ bool add_samples(const SampleBlock& samples, int local, const Raster& picture, c
   const auto flush = [&] {
     const int padded = padded_count(batch.count);
     for (int i = batch.count; i < padded; ++i) {
-      batch.u[i] = batch.v[i] = batch.weight[i] = 0;
-      for (int c = 0; c < picture.channels; ++c) {
-        batch.residual[c][i] = batch.gradient[c][0][i] = batch.gradient[c][1][i] = 0;
-      }
+      batch.u[i] = batch.v[i] = 0;
+      batch.residual[i] = batch.gradient[0][i] = batch.gradient[1][i] = Color::Zero();
     }
     batch.count = padded;
     add_batch(picture.channels, batch, sums);
@@ -80,7 +76,6 @@ bool add_samples(const SampleBlock& samples, int local, const Raster& picture, c
     expected = pixel + 1;
     batch.u[batch.count] = samples.u[sample];
     batch.v[batch.count] = samples.v[sample];
-    batch.weight[batch.count] = 1;
     add_pixel(picture, mean, pixel, x, y, batch.count, batch);
     if (++batch.count == FitBatch::kSize) flush();
   }

@@ -29,28 +29,26 @@ void add_batch(int channels, const MotionBatch& batch, MotionSums& sums) {
   Lanes quartic_u[kGroups][5], quartic_v[kGroups][5];
   Lanes gradient[4][2][kGroups], product[3][kGroups], pull[2][kGroups];
   for (int g = 0; g < groups; ++g) {
-    Lanes u, v, weight;
+    Lanes u, v;
     load(batch.u + kLaneCount * g, u);
     load(batch.v + kLaneCount * g, v);
-    load(batch.weight + kLaneCount * g, weight);
     powers(u, linear_u[g], quadratic_u[g], quartic_u[g]);
     powers(v, linear_v[g], quadratic_v[g], quartic_v[g]);
     const Lanes zero = {};
     for (auto& p : product) p[g] = zero;
     for (auto& p : pull) p[g] = zero;
+    Lanes x[4], y[4], residual[4];
+    load_channels([&](int p) { return batch.gradient[0][kLaneCount * g + p].data(); }, x);
+    load_channels([&](int p) { return batch.gradient[1][kLaneCount * g + p].data(); }, y);
+    load_channels([&](int p) { return batch.residual[kLaneCount * g + p].data(); }, residual);
     for (int c = 0; c < channels; ++c) {
-      Lanes x, y, residual;
-      load(batch.gradient[c][0] + kLaneCount * g, x);
-      load(batch.gradient[c][1] + kLaneCount * g, y);
-      load(batch.residual[c] + kLaneCount * g, residual);
-      const Lanes weighted_x = weight * x, weighted_y = weight * y;
-      product[0][g] += weighted_x * x;
-      product[1][g] += weighted_x * y;
-      product[2][g] += weighted_y * y;
-      pull[0][g] += weighted_x * residual;
-      pull[1][g] += weighted_y * residual;
-      gradient[c][0][g] = weighted_x;
-      gradient[c][1][g] = weighted_y;
+      product[0][g] += x[c] * x[c];
+      product[1][g] += x[c] * y[c];
+      product[2][g] += y[c] * y[c];
+      pull[0][g] += x[c] * residual[c];
+      pull[1][g] += y[c] * residual[c];
+      gradient[c][0][g] = x[c];
+      gradient[c][1][g] = y[c];
     }
   }
   for (int c = 0; c < channels; ++c) {
@@ -61,15 +59,17 @@ void add_batch(int channels, const MotionBatch& batch, MotionSums& sums) {
   for (int s = 0; s < 3; ++s) {
     add_products(groups, product[s], quadratic_u, quadratic_v, sums.stiffness[s]);
   }
+  Lanes force[8];
   for (int k = 0; k < 4; ++k) {
     for (int d = 0; d < 2; ++d) {
       Lanes sum = {};
       for (int g = 0; g < groups; ++g) {
         sum += pull[d][g] * linear_u[g][kAtU[k]] * linear_v[g][kAtV[k]];
       }
-      sums.force[k][d] += sum_of(sum);
+      force[2 * k + d] = sum;
     }
   }
+  add_sums<8>(force, sums.force[0]);
 }
 
 QUADRILLE_MULTIVERSION

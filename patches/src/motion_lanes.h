@@ -11,10 +11,10 @@ namespace quadrille {
 /// Samples of one patch with what they say about moving its corners. A corner's move takes a sample
 /// along by its bilinear weight at the sample's parameters.
 struct MotionBatch {
-  int count = 0;  ///< a multiple of kLaneCount; samples of weight 0 fill up
-  alignas(64) float u[FitBatch::kSize], v[FitBatch::kSize], weight[FitBatch::kSize];
-  alignas(64) float residual[4][FitBatch::kSize];     ///< picture - model
-  alignas(64) float gradient[4][2][FitBatch::kSize];  ///< of the model, per pixel
+  int count = 0;  ///< a multiple of kLaneCount; samples without a gradient fill up
+  alignas(64) float u[FitBatch::kSize], v[FitBatch::kSize];
+  Color residual[FitBatch::kSize];     ///< picture - model
+  Color gradient[2][FitBatch::kSize];  ///< of the model along x and y, per pixel
 };
 
 /// Sums over the samples of one patch, all with powers of parameters in the manner of

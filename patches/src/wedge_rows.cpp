@@ -30,7 +30,7 @@ void WedgeRows::finish(std::size_t wedge_count) {
   std::vector<int> next(wedge_begin_.begin(), wedge_begin_.end() - 1);
   for (std::size_t r = 0; r + 1 < row_begin_.size(); ++r) {
     for (int i = row_begin_[r]; i < row_begin_[r + 1]; ++i) {
-      wedge_entries_[next[entries_[i].wedge]++] = {static_cast<int>(r), i};
+      wedge_entries_[next[entries_[i].wedge]++] = {static_cast<int>(r), entries_[i].factors};
     }
   }
 }
@@ -43,15 +43,14 @@ void WedgeRows::evaluate(const Vector& x) {
 
 void WedgeRows::gather(int wedge, WedgeUnknowns& sum) const {
   for (int i = wedge_begin_[wedge]; i < wedge_begin_[wedge + 1]; ++i) {
-    const auto [row, entry] = wedge_entries_[i];
-    sum += values_[row] * entries_[entry].factors.transpose();
+    sum += values_[wedge_entries_[i].row] * wedge_entries_[i].factors.transpose();
   }
 }
 
 Eigen::Matrix4d WedgeRows::block(int wedge) const {
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   for (int i = wedge_begin_[wedge]; i < wedge_begin_[wedge + 1]; ++i) {
-    const Eigen::Vector4d f = entries_[wedge_entries_[i][1]].factors.cast<double>();
+    const Eigen::Vector4d f = wedge_entries_[i].factors.cast<double>();
     sum += f * f.transpose();
   }
   return sum;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <span>
 #include <vector>
 
@@ -45,10 +44,16 @@ class WedgeRows {
   Eigen::Matrix4d block(int wedge) const;
 
  private:
+  /// Kept a second time in this order, because gather() would else read entries all over memory.
+  struct WedgeEntry {
+    int row;
+    Eigen::Vector4f factors;
+  };
+
   std::vector<Entry> entries_;                      // by row
   std::vector<int> row_begin_ = {0};                // #rows + 1
   std::vector<int> wedge_begin_;                    // #W + 1
-  std::vector<std::array<int, 2>> wedge_entries_;   // row and entry, by wedge, then by row
+  std::vector<WedgeEntry> wedge_entries_;           // by wedge, then by row
   std::vector<Eigen::Vector4f> residual_, values_;  // #rows
 
   Eigen::Vector4f product(std::size_t row, const Vector& x) const {
