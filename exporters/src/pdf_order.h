@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "pdf_cells.h"
-#include "pdf_groups.h"
+#include "paint_groups.h"
 
 namespace quadrille {
 

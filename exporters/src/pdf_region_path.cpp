@@ -17,7 +17,7 @@ class PathText {
 
   void add(const EdgeLoop& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const PlaneCurve curve = edge_curve(loop[i]);
+      const PlaneCurve curve = edge_curve(layer_, loop[i]);
       if (i == 0) point(curve[0], "m");
       if (chord_distance(curve) > kFlatness) {
         point(curve[1], "");
@@ -33,16 +33,6 @@ class PathText {
   const std::string& text() const { return text_; }
 
  private:
-  PlaneCurve edge_curve(int h) const {
-    const PatchMesh& patches = layer_.patches;
-    const Eigen::Vector2d &from = patches.mesh.vertices[patches.mesh.origin(h)],
-                          &to = patches.mesh.vertices[patches.mesh.tip(h)];
-    PlaneCurve curve = {from, from + tangent_along(patches, h, 0) / 3,
-                        to - tangent_along(patches, h, 1) / 3, to};
-    for (Eigen::Vector2d& p : curve) p = layer_.transform * p;
-    return curve;
-  }
-
   void point(const Eigen::Vector2d& p, const char* operation) {
     text_ += to_text(std::llround(p.x() * units_)) + ' ' + to_text(std::llround(p.y() * units_));
     text_ += ' ';

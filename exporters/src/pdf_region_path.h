@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pdf_groups.h"
+#include "paint_groups.h"
 #include "quadrille/vector_image.h"
 
 namespace quadrille {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "patch_sides.h"
 #include "pdf_deflate.h"
 
 namespace quadrille {
@@ -33,27 +34,13 @@ GridPoint to_grid(const CoordinateGrid& grid, const Vector2d& p) {
   return {number(p.x(), grid.origin.x()), number(p.y(), grid.origin.y())};
 }
 
-/// Parameters (u, v) at `t` along a side of a patch.
-std::array<double, 2> on_side(int side, double t) {
-  switch (side) {
-    case 0:
-      return {t, 0};
-    case 1:
-      return {1, t};
-    case 2:
-      return {1 - t, 1};
-    default:
-      return {0, 1 - t};
-  }
-}
-
 /// How fast the patch moves away from its side, in pixels per parameter: the least of its ends and
 /// middle, or the most.
 std::array<double, 2> speed_from_side(const Geometry& g, int side) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const double t : {0.0, 0.5, 1.0}) {
-    const auto [u, v] = on_side(side, t);
-    const Vector2d du = g.derivative_u(u, v), dv = g.derivative_v(u, v);
+    const Vector2d uv = on_side(side, t);
+    const Vector2d du = g.derivative_u(uv.x(), uv.y()), dv = g.derivative_v(uv.x(), uv.y());
     const double along = side & 1 ? dv.norm() : du.norm();
     const double area = std::abs(du.x() * dv.y() - du.y() * dv.x());
     const double speed = along > 0 ? area / along : 0;

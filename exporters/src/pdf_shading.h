@@ -5,7 +5,7 @@
 #include <string>
 
 #include "pdf_cells.h"
-#include "pdf_groups.h"
+#include "paint_groups.h"
 #include "pdf_order.h"
 
 namespace quadrille {

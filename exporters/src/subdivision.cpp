@@ -74,6 +74,16 @@ BicubicHermite<Eigen::Vector2d> placed_geometry(const Layer& layer, int quad) {
   return p;
 }
 
+PlaneCurve edge_curve(const Layer& layer, int h) {
+  const PatchMesh& patches = layer.patches;
+  const Eigen::Vector2d &from = patches.mesh.vertices[patches.mesh.origin(h)],
+                        &to = patches.mesh.vertices[patches.mesh.tip(h)];
+  PlaneCurve curve = {from, from + tangent_along(patches, h, 0) / 3,
+                      to - tangent_along(patches, h, 1) / 3, to};
+  for (Eigen::Vector2d& p : curve) p = layer.transform * p;
+  return curve;
+}
+
 PlaneCurve side_curve(const BicubicBezier<Eigen::Vector2d>& patch, int side) {
   PlaneCurve curve;
   for (int i = 0; i < 4; ++i) {

@@ -19,6 +19,9 @@ using PlaneCurve = std::array<Eigen::Vector2d, 4>;
 /// The geometry of a layer's patch in the coordinates of the picture.
 BicubicHermite<Eigen::Vector2d> placed_geometry(const Layer& layer, int quad);
 
+/// The edge of half-edge h in the coordinates of the picture, in its direction.
+PlaneCurve edge_curve(const Layer& layer, int h);
+
 /// The part of the curve from t0 to t1, 0 <= t0 <= t1 <= 1, as a curve of its own (blossom).
 template <class T>
 std::array<T, 4> sub_curve(const std::array<T, 4>& p, double t0, double t1) {

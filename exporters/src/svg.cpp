@@ -27,14 +27,14 @@ struct LevelDetail {
 LevelDetail detail_of(SvgLevel level) {
   switch (level) {
     case SvgLevel::compact:
-      return {4, 8};
+      return {4, 4};
     case SvgLevel::faithful:
-      return {0.8, 16};
+      return {0.8, 8};
     case SvgLevel::balanced:
     case SvgLevel::inkscape:
       break;
   }
-  return {1.5, 8};
+  return {1.7, 4};
 }
 
 class SvgFile {

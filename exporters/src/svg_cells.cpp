@@ -10,7 +10,7 @@ namespace quadrille {
 namespace {
 
 /// Cells are not divided across a side shorter than this, in pixels of the picture.
-constexpr double kSmallestSide = 1;
+constexpr double kSmallestSide = 0.4;
 /// What a path takes in a compressed file, in bytes: its element, and per character of its data.
 constexpr double kPathBytes = 8, kPathDataBytes = 0.55;
 /// And the same path again right after it.

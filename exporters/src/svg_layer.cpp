@@ -1,12 +1,18 @@
 #include "svg_layer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
 
 #include "subdivision.h"
 
 namespace quadrille {
 namespace {
 
+/// With more regions than this all count as one: each takes a pass over the mesh.
+constexpr int kMostRegions = 64;
+constexpr double kSamePlace = 1e-3;  // pixels
 /// Farther from the origin, in pixels, nothing is painted.
 constexpr double kFarthest = 1e7;
 
@@ -30,12 +36,13 @@ bool can_be_painted(const BicubicHermite<Eigen::Vector2d>& position,
 
 }  // namespace
 
-SvgLayer::SvgLayer(const Layer& layer, double tolerance)
+SvgLayer::SvgLayer(const Layer& layer, double tolerance, double width, double height)
     : layer_(layer), opacity_(patch_opacities(layer.patches, tolerance)) {
   for (int q = 0; q < mesh().quad_count(); ++q) {
     if (!can_be_painted(geometry(q), color(q))) opacity_[q] = PatchOpacity::transparent;
   }
   number_regions();
+  number_parts(width, height);
 }
 
 void SvgLayer::number_regions() {
@@ -58,11 +65,52 @@ void SvgLayer::number_regions() {
     }
     ++count;
   }
+  if (count > kMostRegions) std::fill(region_.begin(), region_.end(), 0);
+}
+
+void SvgLayer::number_parts(double width, double height) {
+  std::vector<char> painted(mesh().quad_count());
+  for (int q = 0; q < mesh().quad_count(); ++q) painted[q] = is_opaque(q);
+  parts_ = paint_groups(mesh(), painted);
+  parts_.open_border = fills(width, height);
+  std::map<std::pair<int, int>, int> numbers;
+  for (int q = 0; q < mesh().quad_count(); ++q) {
+    if (painted[q]) numbers.try_emplace({region_[q], parts_.group[q]}, 0);
+  }
+  parts_.count = 0;
+  for (auto& [part, number] : numbers) number = parts_.count++;
+  for (int q = 0; q < mesh().quad_count(); ++q) {
+    if (painted[q]) parts_.group[q] = numbers.at({region_[q], parts_.group[q]});
+  }
+}
+
+/// True when the border of the mesh is that of the picture, at which every viewer clips.
+bool SvgLayer::fills(double width, double height) const {
+  const Eigen::Vector2d size(width, height);
+  for (int h = 0; h < mesh().halfedge_count(); ++h) {
+    if (mesh().twin(h) >= 0) continue;
+    const PlaneCurve curve = edge_curve(layer_, h);
+    const bool on_side = [&] {
+      for (int axis = 0; axis < 2; ++axis) {
+        for (const double side : {0.0, size[axis]}) {
+          if (std::abs(curve[0][axis] - side) < kSamePlace &&
+              std::abs(curve[3][axis] - side) < kSamePlace) {
+            return true;
+          }
+        }
+      }
+      return false;
+    }();
+    if (!on_side) return false;
+  }
+  return true;
 }
 
 std::vector<int> SvgLayer::quads(PatchOpacity opacity) const {
   std::vector<int> list = patches_with(opacity_, opacity);
-  std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return region_[a] < region_[b]; });
+  const bool in_parts = opacity == PatchOpacity::opaque;
+  const std::vector<int>& number = in_parts ? parts_.group : region_;
+  std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return number[a] < number[b]; });
   return list;
 }
 
@@ -82,8 +130,9 @@ bool SvgLayer::is_painted_later(int h) const {
 bool SvgLayer::is_painted_later(int quad, int other) const {
   const PatchOpacity mine = opacity_[quad], its = opacity_[other];
   if (its == PatchOpacity::transparent) return false;
-  if (mine == its && region_[quad] != region_[other]) return region_[other] > region_[quad];
-  return mine == its ? other > quad : its == PatchOpacity::opaque;
+  if (mine != its) return its == PatchOpacity::opaque;
+  const std::vector<int>& number = its == PatchOpacity::opaque ? parts_.group : region_;
+  return std::pair(number[other], other) > std::pair(number[quad], quad);
 }
 
 }  // namespace quadrille

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "paint_groups.h"
 #include "patch_opacity.h"
 #include "quadrille/vector_image.h"
 
@@ -9,12 +10,16 @@ namespace quadrille {
 
 /// A layer in the picture's coordinates, with the order in which its patches are painted: the
 /// translucent ones first, so that they can reach under the opaque ones, both region by region; the
-/// transparent ones, and those with coordinates or colours that are not finite, never.
+/// transparent ones, and those with coordinates or colours that are not finite, never. The opaque
+/// ones of a region are painted part by part, so that the patches along the two sides of a tear are
+/// in different parts: those painted later are clipped there, as all are at the outline.
 class SvgLayer {
  public:
-  /// Alpha within `tolerance` (of 1) of 0 or 1 counts as such. Keeps a reference to the layer.
-  SvgLayer(const Layer& layer, double tolerance);
+  /// Alpha within `tolerance` (of 1) of 0 or 1 counts as such; the picture is the rectangle [0,
+  /// width] x [0, height]. Keeps a reference to the layer.
+  SvgLayer(const Layer& layer, double tolerance, double width, double height);
 
+  const Layer& layer() const { return layer_; }
   const QuadMesh& mesh() const { return layer_.patches.mesh; }
   BicubicHermite<Eigen::Vector2d> geometry(int quad) const;
   BicubicHermite<Color> color(int quad) const;
@@ -24,6 +29,12 @@ class SvgLayer {
   bool is_painted_later(int quad, int other) const;
   /// Number of the smooth region of a quad: quads that only tears separate are of different ones.
   int region(int quad) const { return region_[quad]; }
+  /// Number of the part of an opaque quad; parts of a region follow each other.
+  int part(int quad) const { return parts_.group[quad]; }
+  /// True when a clip ends the part of half-edge h there; its patches go on beyond.
+  bool is_clipped(int h) const { return across(mesh(), parts_, h) == Across::outside; }
+  /// What clips a part; empty when nothing does.
+  std::vector<EdgeLoop> clip(int part) const { return group_region(mesh(), parts_, part); }
   PatchOpacity opacity(int quad) const { return opacity_[quad]; }
   bool is_opaque(int quad) const { return opacity(quad) == PatchOpacity::opaque; }
   /// Quads of this opacity in painting order.
@@ -31,10 +42,13 @@ class SvgLayer {
 
  private:
   void number_regions();
+  void number_parts(double width, double height);
+  bool fills(double width, double height) const;
 
   const Layer& layer_;
   std::vector<PatchOpacity> opacity_;
   std::vector<int> region_;
+  PaintGroups parts_;  ///< of the opaque quads
 };
 
 }  // namespace quadrille

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "patch_sides.h"
+
 namespace quadrille {
 namespace {
 
@@ -12,11 +14,8 @@ using Geometry = BicubicHermite<Vector2d>;
 /// Farthest that a straight line may be from the curve it stands for, in pixels: along the outline
 /// of the mesh and tears, along seams of smooth colour, and where later cells hide it.
 constexpr double kExactFlatness = 0.01, kSeamFlatness = 0.25, kHiddenFlatness = 0.25;
-/// The bleed ends at this part of the width of a patch at the latest: beyond it may lie something
-/// that is painted earlier.
-constexpr double kDeepestBleed = 0.5;
-/// How far a bleed may lead askew where the sides of a patch meet at a small angle, in bleeds.
-constexpr double kLongestBleed = 3;
+/// How far cells go on beyond a clip, in bleeds: all over the pixels that the clip halves.
+constexpr double kClippedBleed = 1.5;
 /// How far a seam may be from its chord where corners alone are moved for the bleed, in bleeds, and
 /// where no bleed goes across it, in pixels; and the least sine of the angle between a side and the
 /// next along which a corner moves.
@@ -24,38 +23,7 @@ constexpr double kPlainFlatness = 0.6, kPlainSeamFlatness = 0.6, kLeastSlope = 0
 /// Points of an outline nearer than this to the line past them are left out, in pixels.
 constexpr double kStraightness = 0.06;
 
-/// Parameters of the point at `s` along side k of the patch, `depth` inside of it.
-Vector2d on_side(int k, double s, double depth) {
-  switch (k) {
-    case 0:
-      return {s, depth};
-    case 1:
-      return {1 - depth, s};
-    case 2:
-      return {1 - s, 1 - depth};
-    default:
-      return {depth, 1 - s};
-  }
-}
-
 Vector2d at(const Geometry& g, const Vector2d& uv) { return g.at(uv.x(), uv.y()); }
-
-/// How far the parameter may run from uv, across lines of constant u (or v), to cover `distance`
-/// pixels; at most kDeepestBleed and kLongestBleed.
-double parameter_step(const Geometry& g, const Vector2d& uv, bool along_u, double distance) {
-  const Vector2d du = g.derivative_u(uv.x(), uv.y()), dv = g.derivative_v(uv.x(), uv.y());
-  const double area = std::abs(du.x() * dv.y() - du.y() * dv.x());
-  const double own = along_u ? du.norm() : dv.norm(), other = along_u ? dv.norm() : du.norm();
-  const double depth =
-      area * kDeepestBleed > distance * other ? distance * other / area : kDeepestBleed;
-  return depth * own > kLongestBleed * distance ? kLongestBleed * distance / own : depth;
-}
-
-/// The point `distance` pixels inside side k at `s`.
-Vector2d inside(const Geometry& g, int k, double s, double distance) {
-  const double depth = parameter_step(g, on_side(k, s, 0), k == 1 || k == 3, distance);
-  return at(g, on_side(k, s, depth));
-}
 
 /// The number of chords, equal in the parameter, that stay that near to the curve; at most 8.
 int chords_along(const PlaneCurve& curve, double flatness) {
@@ -79,14 +47,19 @@ class OutlineBuilder {
         bleed_(bleed),
         geometry_(layer.geometry(quad)),
         bezier_(to_bezier(geometry_)) {
-    for (int k = 0; k < 4; ++k) later_[k] = layer_.is_painted_later(4 * quad + k);
+    const Vector2d du = geometry_.derivative_u(0.5, 0.5), dv = geometry_.derivative_v(0.5, 0.5);
+    orientation_ = du.x() * dv.y() < du.y() * dv.x() ? -1 : 1;
+    for (int k = 0; k < 4; ++k) {
+      later_[k] = layer_.is_painted_later(4 * quad + k);
+      clipped_[k] = layer_.is_clipped(4 * quad + k);
+    }
     grow_within_patch();
   }
 
   SvgOutline build() {
     const BicubicBezier<Vector2d> part = sub_patch(bezier_, box_);
     if (is_plain(part)) return build_plain(part);
-    for (int k = 0; k < 4; ++k) outline_.is_exact |= !is_smooth_seam(k);
+    for (int k = 0; k < 4; ++k) outline_.is_exact |= !is_smooth_seam(k) && !clipped_[k];
     for (int k = 0; k < 4; ++k) {
       add_corner(k);
       if (has_flange(k)) {
@@ -138,16 +111,32 @@ class OutlineBuilder {
     return true;
   }
 
+  /// True when all other patches around the origin of half-edge h are painted later.
+  bool all_later_around(int h) const {
+    const auto fan = layer_.mesh().fan(layer_.mesh().origin(h));
+    return std::all_of(fan.begin(), fan.end(), [&](int around) {
+      const int quad = QuadMesh::quad_of(around);
+      return quad == quad_ || layer_.is_painted_later(quad_, quad);
+    });
+  }
+
   /// The cell with its corners moved outward along its sides, on across those with bleed.
   SvgOutline build_plain(const BicubicBezier<Vector2d>& part) {
     std::array<PlaneCurve, 4> sides;
     for (int k = 0; k < 4; ++k) sides[k] = side_curve(part, k);
     for (int k = 0; k < 4; ++k) {
       const int before = (k + 3) & 3;
-      Vector2d corner = sides[k][0];
-      if (has_flange(k)) corner += across(k, sides[before][3] - sides[before][0], sides[k]);
-      if (has_flange(before)) corner += across(before, sides[k][0] - sides[k][3], sides[before]);
-      add_point(corner);
+      const Vector2d corner = sides[k][0];
+      Vector2d end = corner, start = corner;
+      if (has_flange(before)) end += across(before, sides[k][0] - sides[k][3], sides[before]);
+      if (has_flange(k)) start += across(k, sides[before][3] - sides[before][0], sides[k]);
+      if (has_flange(before) && has_flange(k) && !all_later_around(4 * quad_ + k)) {
+        add_point(end);
+        add_point(corner);
+        add_point(start);
+      } else {
+        add_point(end + start - corner);
+      }
       if (!has_flange(k) && !is_hidden(k)) add_curve(sides[k], kPlainSeamFlatness);
     }
     outline_.pieces.erase(outline_.pieces.begin());
@@ -160,7 +149,7 @@ class OutlineBuilder {
     const auto [first, last] = side_range(k);
     double depth = bleed_;  // less where the later patch is thin
     for (const double s : {first, 0.5 * (first + last), last}) {
-      const Vector2d seam = at(geometry_, on_side(k, s, 0));
+      const Vector2d seam = at(geometry_, on_side(k, s));
       depth = std::min(depth, (beyond(k, s) - seam).norm());
     }
     const double outward = step.x() * along.y() - step.y() * along.x();
@@ -190,7 +179,8 @@ class OutlineBuilder {
         return box_.u0 == 0;
     }
   }
-  bool has_flange(int k) const { return on_border(k) && later_[k]; }
+  /// Painted beyond side k, where something hides or clips it.
+  bool has_flange(int k) const { return on_border(k) && (later_[k] || clipped_[k]); }
   bool is_hidden(int k) const {
     return !on_border(k) && ((k == 1 && box_.u1 > cell_.u1) || (k == 2 && box_.v1 > cell_.v1));
   }
@@ -237,11 +227,49 @@ class OutlineBuilder {
     for (int i = 1; i < parts; ++i) add_point(beyond(k, first + (last - first) * i / parts));
   }
 
-  /// The point `bleed` beyond side k at s, in the patch on its other side.
+  /// The point `bleed` beyond side k at s, in the patch on its other side, or beyond a clip.
   Vector2d beyond(int k, double s) const {
     const int twin = layer_.mesh().twin(4 * quad_ + k);
+    if (twin < 0) return at(geometry_, on_side(k, s)) + outward(k, s);
     return inside(layer_.geometry(QuadMesh::quad_of(twin)), QuadMesh::corner_of(twin), 1 - s,
-                  bleed_);
+                  clipped_[k] ? kClippedBleed * bleed_ : bleed_);
+  }
+
+  /// The bleed beyond the border of the mesh.
+  Vector2d outward(int k, double s) const {
+    const Vector2d uv = on_side(k, s);
+    Vector2d along = k % 2 == 0 ? geometry_.derivative_u(uv.x(), uv.y())
+                                : geometry_.derivative_v(uv.x(), uv.y());
+    if (k >= 2) along = -along;
+    return orientation_ * kClippedBleed * bleed_ * Vector2d(along.y(), -along.x()).normalized();
+  }
+
+  /// True when all that is painted around the origin of half-edge h is of the part of this patch:
+  /// a corner may then reach anywhere there.
+  bool has_one_part_around(int h) const {
+    const auto fan = layer_.mesh().fan(layer_.mesh().origin(h));
+    return std::all_of(fan.begin(), fan.end(), [&](int around) {
+      const int quad = QuadMesh::quad_of(around);
+      return layer_.opacity(quad) == PatchOpacity::transparent ||
+             (layer_.is_opaque(quad) && layer_.part(quad) == layer_.part(quad_));
+    });
+  }
+
+  /// The same as add_corner() where a clip ends one of the sides or both.
+  void add_clipped_corner(int k) {
+    const int before = (k + 3) & 3, h = 4 * quad_ + k;
+    const Vector2d corner = geometry_.value[k];
+    const Vector2d end = has_flange(before) ? beyond(before, 1) : corner;
+    const Vector2d start = has_flange(k) ? beyond(k, 0) : corner;
+    if (later_[before]) walk_around(h, true);
+    if (clipped_[before]) add_point(end);
+    if (has_flange(before) && has_flange(k) && has_one_part_around(h)) {
+      add_point(end + start - corner);
+    } else {
+      add_point(corner);
+    }
+    if (clipped_[k]) add_point(start);
+    if (later_[k]) walk_around(h, false);
   }
 
   /// Joins side k - 1 to side k where one of them has a flange.
@@ -253,6 +281,7 @@ class OutlineBuilder {
       add_point(from_flange ? beyond(before, side_range(before)[1]) : beyond(k, side_range(k)[0]));
       return;
     }
+    if (clipped_[before] || clipped_[k]) return add_clipped_corner(k);
     const int h = 4 * quad_ + k;
     if (from_flange && walk_around(h, true)) return;
     add_point(geometry_.value[k]);
@@ -302,7 +331,7 @@ class OutlineBuilder {
 
   /// The point `bleed` away from both sides at a corner.
   Vector2d diagonal(const Geometry& g, int corner) const {
-    const Vector2d uv = on_side(corner, 0, 0);
+    const Vector2d uv = on_side(corner, 0);
     const double step_u = parameter_step(g, uv, true, bleed_);
     const double step_v = parameter_step(g, uv, false, bleed_);
     return at(g, {uv.x() + (uv.x() > 0.5 ? -step_u : step_u),
@@ -338,7 +367,8 @@ class OutlineBuilder {
   double bleed_;
   Geometry geometry_;
   BicubicBezier<Vector2d> bezier_;
-  std::array<bool, 4> later_;
+  double orientation_ = 1;
+  std::array<bool, 4> later_, clipped_;
   SvgOutline outline_;
 };
 

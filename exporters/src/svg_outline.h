@@ -22,9 +22,10 @@ struct SvgOutline {
 
 /// The outline of a cell of a patch with its bleed: wherever the cell borders on something that is
 /// painted later, it goes on underneath by `bleed` pixels, within the later cells of its own patch
-/// and within the later patches beside it and around its corners. Toward whatever is painted
-/// earlier, and at the outline of the mesh, it ends exactly. Without bleed, anti-aliased cells let
-/// the background shine through along their seams.
+/// and within the later patches beside it and around its corners; and a little further beyond a
+/// clip. Toward whatever else is painted earlier it ends exactly. Without bleed, anti-aliased cells
+/// let the background shine through along their seams; where several end in one pixel of an
+/// outline, their shares of it would not add up.
 SvgOutline cell_outline(const SvgLayer& layer, int quad, const ParameterBox& cell, double bleed);
 
 }  // namespace quadrille

@@ -25,14 +25,14 @@ void extend(Eigen::AlignedBox2d& box, const PlaneCurve& p) {
 
 }  // namespace
 
-SvgPathData::Point SvgPathData::to_quarters(const Eigen::Vector2d& p, bool is_exact) const {
-  const int step = is_exact ? 1 : kQuarters;
-  const double scale = double(units_) * kQuarters / step;
+SvgPathData::Point SvgPathData::to_exact(const Eigen::Vector2d& p, bool is_exact) const {
+  const int step = is_exact ? 1 : kExact;
+  const double scale = double(units_) * kExact / step;
   return {step * std::llround(p.x() * scale), step * std::llround(p.y() * scale)};
 }
 
 void SvgPathData::append(const SvgOutline& outline) {
-  const auto place = [&](const Eigen::Vector2d& p) { return to_quarters(p, outline.is_exact); };
+  const auto place = [&](const Eigen::Vector2d& p) { return to_exact(p, outline.is_exact); };
   const Point start = place(outline.start);
   command_ = 0;  // each subpath says its own m
   write('m', {start - at_});
@@ -51,7 +51,7 @@ void SvgPathData::append(const SvgOutline& outline) {
 }
 
 Eigen::AlignedBox2d SvgPathData::bounds() const {
-  const double scale = 1.0 / (units_ * kQuarters);
+  const double scale = 1.0 / (units_ * kExact);
   return {bounds_.min() * scale, bounds_.max() * scale};
 }
 
@@ -91,7 +91,7 @@ void SvgPathData::write(char command, std::initializer_list<Point> points) {
 
 void SvgPathData::write_number(long long number, bool separate) {
   if (separate && number >= 0) text_ += ' ';
-  text_ += to_short_text(double(number) / kQuarters, 2);
+  text_ += to_short_text(double(number) / kExact, 3);
 }
 
 }  // namespace quadrille

@@ -8,7 +8,7 @@
 namespace quadrille {
 
 /// Path data of outlines with coordinates as integers, in units of a part of a pixel; those of
-/// exact outlines in quarters of it.
+/// exact outlines in eighths of it.
 class SvgPathData {
  public:
   explicit SvgPathData(int units_per_pixel) : units_(units_per_pixel) {}
@@ -20,15 +20,15 @@ class SvgPathData {
   Eigen::AlignedBox2d bounds() const;
 
  private:
-  using Point = Eigen::Matrix<long long, 2, 1>;  ///< in quarters of the unit
-  static constexpr int kQuarters = 4;
+  using Point = Eigen::Matrix<long long, 2, 1>;  ///< in exact units
+  static constexpr int kExact = 8;               ///< exact units per unit
 
   void write(char command, std::initializer_list<Point> points);
   void write_number(long long number, bool separate);
   void line_to(const Point& target);
   void cubic_to(const Point& control1, const Point& control2, const Point& end);
 
-  Point to_quarters(const Eigen::Vector2d& p, bool is_exact) const;
+  Point to_exact(const Eigen::Vector2d& p, bool is_exact) const;
 
   int units_;  ///< per pixel
   std::string text_;

@@ -22,7 +22,7 @@ class Grouper {
   }
 
   std::vector<UnderlayGroup> run() {
-    std::vector<UnderlayGroup> groups;
+    std::vector<UnderlayGroup> groups = {whole()};
     for (int q = 0; q < mesh_.quad_count(); ++q) {
       if (group_[q] != kOpen) continue;
       const std::vector<int> quads = gather(q, static_cast<int>(groups.size()));
@@ -55,6 +55,27 @@ class Grouper {
       }
     }
     return false;
+  }
+
+  /// All of them without a seam, below the groups.
+  UnderlayGroup whole() const {
+    std::vector<char> inside(mesh_.quad_count());
+    std::vector<int> quads;
+    for (int q = 0; q < mesh_.quad_count(); ++q) {
+      inside[q] = group_[q] == kOpen;
+      if (inside[q]) quads.push_back(q);
+    }
+    UnderlayGroup group;
+    group.color = mean_color(quads);
+    for (const EdgeLoop& loop : border_of(mesh_, inside)) {
+      SvgOutline& outline = group.outlines.emplace_back();
+      outline.start = corner(loop.front());
+      for (const int h : loop) {
+        const Eigen::Vector2d p = corner(QuadMesh::next(h));
+        outline.pieces.push_back({true, p, p, p});
+      }
+    }
+    return group;
   }
 
   /// The half-edge on the other side of h where that may be in the same group, or -1.
@@ -110,7 +131,7 @@ class Grouper {
   Eigen::Array3d mean_color(const std::vector<int>& quads) const {
     Eigen::Array3d sum = Eigen::Array3d::Zero();
     for (const int q : quads) sum += layer_.color(q).at(0.5, 0.5).head<3>().cast<double>();
-    return (255 * sum / double(quads.size())).max(0.0).min(255.0);
+    return (255 * sum / std::max(1.0, double(quads.size()))).max(0.0).min(255.0);
   }
 
   const SvgLayer& layer_;

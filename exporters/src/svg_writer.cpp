@@ -10,6 +10,7 @@
 #include "arena_size.h"
 #include "svg_cell_writer.h"
 #include "svg_cells.h"
+#include "svg_clip.h"
 #include "svg_layer.h"
 #include "svg_text.h"
 #include "svg_underlay.h"
@@ -45,7 +46,7 @@ class SvgWriter {
 
  private:
   void write_layer(const Layer& source) {
-    const SvgLayer layer(source, kAlphaTolerance);
+    const SvgLayer layer(source, kAlphaTolerance, image_.width, image_.height);
     const std::string id = "layer-" + std::to_string(++layer_count_);
     out_ << "<g id=\"" << id << "\">\n";
     const std::vector<int> translucent = layer.quads(PatchOpacity::translucent);
@@ -82,15 +83,34 @@ class SvgWriter {
   }
 
   void write_regions(const SvgLayer& layer, const std::vector<int>& quads) {
+    const auto end_of = [&](auto begin, const auto& number) {
+      return std::find_if(begin, quads.end(), [&](int q) { return number(q) != number(*begin); });
+    };
     for (auto begin = quads.begin(); begin != quads.end();) {
-      const int region = layer.region(*begin);
-      const auto end =
-          std::find_if(begin, quads.end(), [&](int q) { return layer.region(q) != region; });
-      out_ << "<g id=\"region-" << to_text(static_cast<long long>(++region_count_)) << "\">\n";
-      write_cells(layer, {begin, end}, CellPaint::color);
+      const auto region_end = end_of(begin, [&](int q) { return layer.region(q); });
+      const std::string id = "region-" + to_text(static_cast<long long>(++region_count_));
+      out_ << "<g id=\"" << id << "\">\n";
+      while (begin != region_end) {
+        const auto end = end_of(begin, [&](int q) { return layer.part(q); });
+        write_part(layer, {begin, end}, id);
+        begin = end;
+      }
       out_ << "</g>\n";
-      begin = end;
     }
+  }
+
+  void write_part(const SvgLayer& layer, const std::vector<int>& quads, const std::string& region) {
+    const int part = layer.part(quads.front());
+    const std::vector<EdgeLoop> clip = layer.clip(part);
+    if (!clip.empty()) {
+      const std::string id = region + "-clip-" + to_text(static_cast<long long>(part + 1));
+      SvgPathData path(detail_.units_per_pixel);
+      for (const EdgeLoop& loop : clip) path.append(clip_outline(layer.layer(), loop));
+      out_ << "<clipPath id=\"" << id << "\"><path d=\"" << path.text()
+           << "\"/></clipPath>\n<g clip-path=\"url(#" << id << ")\">\n";
+    }
+    write_cells(layer, quads, CellPaint::color);
+    if (!clip.empty()) out_ << "</g>\n";
   }
 
   void write_cells(const SvgLayer& layer, const std::vector<int>& quads, CellPaint paint) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "pdf_groups.h"
+#include "paint_groups.h"
 #include "support/random_patches.h"
 
 namespace quadrille {

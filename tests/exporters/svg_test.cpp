@@ -238,5 +238,41 @@ TEST(Svg, TearsDivideALayerIntoRegions) {
   EXPECT_THAT(text, Not(HasSubstr("region-3")));
 }
 
+/// Two halves of different colours, each a little uneven so that it takes many cells; across the
+/// tear between them nothing is shared.
+VectorImage halves(const Color& left, const Color& right) {
+  PatchMesh patches = testing::random_patches(10, 6, 100, 60, 7);
+  QuadMesh mesh = patches.mesh;
+  const auto is_left = [](int quad) { return quad % 10 < 5; };
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const int h = mesh.halfedge(e), twin = mesh.twin(h);
+    if (twin >= 0 && is_left(QuadMesh::quad_of(h)) != is_left(QuadMesh::quad_of(twin))) {
+      mesh.edge_flags[e] |= kTearEdge;
+    }
+  }
+  PatchMesh torn = straight_patches(mesh);
+  for (int h = 0; h < mesh.halfedge_count(); ++h) {
+    Wedge& wedge = torn.wedges[torn.wedge_of_corner[h]];
+    const float shade = 0.8f + 0.2f * static_cast<float>(mesh.origin(h) % 3) / 2;
+    wedge.value = (is_left(QuadMesh::quad_of(h)) ? left : right) * Color(shade, shade, shade, 1);
+  }
+  torn.opaque = left[3] == 1 && right[3] == 1;
+  return testing::single_layer(std::move(torn), 100, 60);
+}
+
+TEST(Svg, PixelsThatATearHalvesAreCoveredOnceFromEachSide) {
+  const VectorImage image = halves(Color(0.9f, 0.8f, 0.2f, 1), Color(0.1f, 0.1f, 0.4f, 1));
+  EXPECT_GT(difference(image, 1, "torn").psnr, 44);
+  EXPECT_GT(difference(image, 4, "torn").psnr, 44);
+  EXPECT_EQ(smallest_alpha(drawn_by_librsvg(output("torn.svg"), {400, 240})), 1);
+}
+
+TEST(Svg, PixelsThatAnOutlineHalvesAreCoveredOnce) {
+  const VectorImage image = halves(Color(0.9f, 0.8f, 0.2f, 1), Color::Zero());
+  EXPECT_GT(difference(image, 1, "half").psnr, 44);
+  EXPECT_GT(difference(image, 4, "half").psnr, 44);
+  EXPECT_THAT(bytes_of(output("half.svg")), HasSubstr("<clipPath id=\"region-1-clip-1\">"));
+}
+
 }  // namespace
 }  // namespace quadrille

@@ -26,8 +26,8 @@ struct RasterFileOptions {
 /// pixels, mean of the channels) by t^2 or more for a byte of the compressed file.
 enum class SvgLevel {
   compact,   ///< t = 4
-  balanced,  ///< t = 1.5
-  faithful,  ///< t = 0.8, and coordinates to 1/16 of a pixel instead of 1/8 (both four times
+  balanced,  ///< t = 1.7
+  faithful,  ///< t = 0.8, and coordinates to 1/8 of a pixel instead of 1/4 (both eight times
              ///< finer along tears and the outline)
   inkscape,  ///< mesh gradients that Inkscape draws and edits; others show flat colours
 };

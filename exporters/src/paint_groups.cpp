@@ -1,4 +1,4 @@
-#include "pdf_groups.h"
+#include "paint_groups.h"
 
 #include <algorithm>
 #include <numeric>
