@@ -17,6 +17,14 @@ void PatchShader::shade(ColorBatch& batch) {
   }
 }
 
+bool PatchShader::shade_found(ColorBatch& batch) const {
+  if (!program_.regular) return false;
+  invert_points(program_, view_.map, batch);
+  if (batch.missing_count != 0) return false;
+  shade_parameters(program_, scene_.patches().opaque, batch);
+  return true;
+}
+
 void PatchShader::judge(int side, std::span<const ColorBlock> blocks, std::uint8_t* fit) const {
   std::fill(fit, fit + blocks.size(), std::uint8_t{0});
   if (program_.regular) {
@@ -24,7 +32,7 @@ void PatchShader::judge(int side, std::span<const ColorBlock> blocks, std::uint8
   }
 }
 
-bool PatchShader::find_nodes(int side, const ColorBlock& block, BlockNodes& nodes) const {
+bool PatchShader::find_nodes(int side, const ColorBlock& block, float* nodes) const {
   return find_block_nodes(program_, view_.map, scene_.patches().opaque, side, block, nodes);
 }
 

@@ -19,13 +19,16 @@ class PatchShader {
 
   /// See PatchView; the points of batches are relative to it.
   const std::array<int, 2>& origin() const { return view_.origin; }
+  bool opaque() const { return scene_.patches().opaque; }
 
   /// Colours at the batch's points.
   void shade(ColorBatch& batch);
+  /// The same where Newton's method finds all parameters; false where it does not.
+  bool shade_found(ColorBatch& batch) const;
 
   /// judge_blocks() and find_block_nodes() of the patch.
   void judge(int side, std::span<const ColorBlock> blocks, std::uint8_t* fit) const;
-  bool find_nodes(int side, const ColorBlock& block, BlockNodes& nodes) const;
+  bool find_nodes(int side, const ColorBlock& block, float* nodes) const;
 
  private:
   /// For points whose parameters Newton's method does not find.
