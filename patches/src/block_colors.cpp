@@ -1,6 +1,7 @@
 #include "block_colors.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "node_weights.h"
 
@@ -19,6 +20,8 @@ namespace {
 constexpr float kReach = 0.5f;
 /// How much steeper than inside the square colours may be at nodes.
 constexpr float kSteeper = 2;
+/// Newton's method at samples, see invert().
+constexpr float kMargin = 0.02f;
 
 struct Normalized {
   V x, y;
@@ -90,6 +93,57 @@ bool find_nodes(const PatchProgram& p, const float (&map)[6], bool opaque, int s
   }
 }
 
+/// The polynomial through the nodes at the samples from `first` on.
+HWY_INLINE V interpolated(const float* nodes, int first) {
+  const Floats d;
+  V across[4], sum = hn::Zero(d);
+  for (int i = 0; i < 4; ++i) across[i] = hn::Load(d, kSamples.across[i] + first);
+  for (int j = 0; j < 4; ++j) {
+    V row = hn::Zero(d);
+    for (int i = 0; i < 4; ++i) row = row + number(nodes[4 * j + i]) * across[i];
+    sum = sum + row * hn::Load(d, kSamples.down[j] + first);
+  }
+  return sum;
+}
+
+bool matches(const PatchProgram& p, const float (&map)[6], bool opaque, const ColorBlock& block,
+             const float* nodes, std::uint64_t samples) {
+  constexpr float kAllowed = 1.0f / 170 / 255;
+  constexpr int kTogether = 2;
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const V zero = hn::Zero(d), one = number(1);
+  for (int first = 0; first < 64; first += kTogether * lanes) {
+    V x[kTogether], y[kTogether];
+    for (int k = 0; k < kTogether; ++k) {
+      const V from_left = hn::Load(d, kSamples.x + first + k * lanes);
+      const V from_top = hn::Load(d, kSamples.y + first + k * lanes);
+      const Normalized at =
+          normalized(map, number(block.x) + from_left, number(block.y) + from_top);
+      x[k] = at.x, y[k] = at.y;
+    }
+    Parameters at[kTogether];
+    invert<kTogether>(p, x, y, kMargin, 1, at);
+    for (int k = 0; k < kTogether; ++k) {
+      const int n = first + k * lanes;
+      Mask good = at[k].found;
+      for (int c = 0; c < (opaque ? 3 : 4); ++c) {
+        const V here = interpolated(nodes + BlockPlan::kNodes * c, n);
+        const V there = bicubic(p.color[c], at[k].s, at[k].t);
+        const V off = hn::Min(hn::Max(here, zero), one) - hn::Min(hn::Max(there, zero), one);
+        good = hn::And(good, hn::Abs(off) <= number(kAllowed));
+      }
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(d, good, bits);
+      std::uint64_t good_ones;
+      std::memcpy(&good_ones, bits, sizeof bits);
+      const std::uint64_t wanted = samples >> n & ((std::uint64_t{1} << lanes) - 1);
+      if (wanted & ~good_ones) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace quadrille
@@ -100,6 +154,7 @@ namespace quadrille {
 namespace {
 HWY_EXPORT(judge);
 HWY_EXPORT(find_nodes);
+HWY_EXPORT(matches);
 }  // namespace
 
 void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
@@ -110,6 +165,11 @@ void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaqu
 bool find_block_nodes(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
                       const ColorBlock& block, float* nodes) {
   return HWY_DYNAMIC_DISPATCH(find_nodes)(program, map, opaque, side, block, nodes);
+}
+
+bool block_matches(const PatchProgram& program, const float (&map)[6], bool opaque,
+                   const ColorBlock& block, const float* nodes, std::uint64_t samples) {
+  return HWY_DYNAMIC_DISPATCH(matches)(program, map, opaque, block, nodes, samples);
 }
 
 }  // namespace quadrille

@@ -241,10 +241,9 @@ HWY_INLINE bool clip(const BlockPlan& plan, const BlockPlan::Block& b, const Sam
 }
 
 template <bool opaque, class Target>
-HWY_INLINE void paint_all(const BlockPlan& plan, std::size_t first, std::size_t last,
-                          const SampleWindow& window, const Target& target) {
+HWY_INLINE void paint_all(const BlockPlan& plan, const SampleWindow& window, const Target& target) {
   PaintedBlock painted;
-  for (std::size_t i = first; i < last; ++i) {
+  for (std::size_t i = 0; i < plan.blocks.size(); ++i) {
     const BlockPlan::Block& block = plan.blocks[i];
     if (!clip(plan, block, window, target.stride(), painted)) continue;
     const float* const nodes = plan.nodes.data() + BlockPlan::kNodes * (opaque ? 3 : 4) * i;
@@ -265,18 +264,18 @@ HWY_INLINE void paint_all(const BlockPlan& plan, std::size_t first, std::size_t 
   }
 }
 
-void paint_floats(const BlockPlan& plan, std::size_t first, std::size_t last, bool opaque,
-                  const SampleWindow& window, const SamplePlanes& samples) {
+void paint_floats(const BlockPlan& plan, bool opaque, const SampleWindow& window,
+                  const SamplePlanes& samples) {
   const FloatTarget target = {samples};
   if (opaque) {
-    paint_all<true>(plan, first, last, window, target);
+    paint_all<true>(plan, window, target);
   } else {
-    paint_all<false>(plan, first, last, window, target);
+    paint_all<false>(plan, window, target);
   }
 }
 
 void paint_words(const BlockPlan& plan, const SampleWindow& window, const PixelWords& pixels) {
-  paint_all<true>(plan, 0, plan.blocks.size(), window, WordTarget{pixels});
+  paint_all<true>(plan, window, WordTarget{pixels});
 }
 
 }  // namespace
@@ -291,9 +290,9 @@ HWY_EXPORT(paint_floats);
 HWY_EXPORT(paint_words);
 }  // namespace
 
-void paint_blocks(const BlockPlan& plan, std::size_t begin, std::size_t end, bool opaque,
-                  const SampleWindow& window, const SamplePlanes& samples) {
-  HWY_DYNAMIC_DISPATCH(paint_floats)(plan, begin, end, opaque, window, samples);
+void paint_blocks(const BlockPlan& plan, bool opaque, const SampleWindow& window,
+                  const SamplePlanes& samples) {
+  HWY_DYNAMIC_DISPATCH(paint_floats)(plan, opaque, window, samples);
 }
 
 void paint_blocks(const BlockPlan& plan, const SampleWindow& window, const PixelWords& pixels) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "block_paint.h"
 #include "patch_shader.h"
 
 namespace quadrille {
@@ -251,7 +252,7 @@ void BlockPainter::paint_interior(const LayerScene& scene, int patch) {
   if (as_words_) {
     paint_blocks(plan, window_, words_);
   } else {
-    paint_blocks(plan, 0, plan.blocks.size(), scene.patches().opaque, window_, layer_);
+    paint_blocks(plan, scene.patches().opaque, window_, layer_);
   }
   const auto points = plan.blocks.empty() ? spans : std::span(plan.points);
   paint_points(shader, part == bounds ? points : clipped(points));

@@ -13,7 +13,7 @@ int band_of(int y) { return y >> std::countr_zero(static_cast<unsigned>(kBlockSi
 
 }  // namespace
 
-void BlockPlanner::plan(PatchShader& shader, const SampleWindow& bounds,
+void BlockPlanner::plan(const PatchShader& shader, const SampleWindow& bounds,
                         std::span<const SampleSpan> spans, bool complete, BlockPlan& plan) {
   plan.clear();
   if (spans.empty()) return;
@@ -96,7 +96,7 @@ void BlockPlanner::find_inside(const Corner& corner, int side) {
 }
 
 /// Takes the blocks tried, of this side, that fit; the others remain.
-void BlockPlanner::take_fitting(PatchShader& shader, int side, BlockPlan& plan) {
+void BlockPlanner::take_fitting(const PatchShader& shader, int side, BlockPlan& plan) {
   std::erase_if(tried_, [&](const Corner& c) {
     const Band spans = spans_in(c, side);
     return spans.begin == spans.end;
@@ -119,39 +119,45 @@ void BlockPlanner::take_fitting(PatchShader& shader, int side, BlockPlan& plan) 
 }
 
 /// Takes a block tried if it fits.
-bool BlockPlanner::take(PatchShader& shader, std::size_t tried, int side, BlockPlan& plan) {
-  // Of larger blocks more is proven; where that fails, few would pass.
-  const bool checked = complete_ && side == kSmallest;
-  if (!fit_[tried] && !checked) return false;
+bool BlockPlanner::take(const PatchShader& shader, std::size_t tried, int side, BlockPlan& plan) {
+  // Of larger blocks more is proven, and where that fails few would match.
+  const bool compared = complete_ && side == kSmallest;
+  if (!fit_[tried] && !compared) return false;
+  const ColorBlock& block = blocks_[tried];
+  const std::size_t before = plan.nodes.size();
+  plan.nodes.resize(before + BlockPlan::kNodes * (shader.opaque() ? 3 : 4));
+  float* const nodes = plan.nodes.data() + before;
   const Corner c = tried_[tried];
-  const std::size_t nodes = plan.nodes.size(), rows = plan.rows.size();
-  plan.nodes.resize(nodes + BlockPlan::kNodes * (shader.opaque() ? 3 : 4));
-  if (shader.find_nodes(side, blocks_[tried], plan.nodes.data() + nodes)) {
-    cover(c, side, plan);
-    if (fit_[tried] || check_.passes(shader, plan, inside_)) return true;
-    plan.blocks.pop_back();
-    plan.rows.resize(rows);
+  find_rows(c, side);
+  if (!shader.find_nodes(side, block, nodes) ||
+      !(fit_[tried] || shader.matches(block, nodes, smallest_samples()))) {
+    plan.nodes.resize(before);
+    return false;
   }
-  plan.nodes.resize(nodes);
-  return false;
+  plan.blocks.push_back({c.x, c.y, side, full_, static_cast<std::uint32_t>(plan.rows.size())});
+  if (!full_) plan.rows.insert(plan.rows.end(), rows_, rows_ + side);
+  return true;
 }
 
-/// Adds a block that covers what lies inside.
-void BlockPlanner::cover(const Corner& corner, int side, BlockPlan& plan) const {
-  const std::size_t first = plan.rows.size();
-  plan.rows.resize(first + side, 0);
-  std::uint32_t* const rows = plan.rows.data() + first;
+/// Sets the bits of what lies inside a block.
+void BlockPlanner::find_rows(const Corner& corner, int side) {
+  std::fill_n(rows_, side, 0u);
   int count = 0;
   for (const SampleSpan& s : inside_) {
     const auto before = [&](int x) {
       return static_cast<std::uint32_t>((std::uint64_t{1} << (x - corner.x)) - 1);
     };
-    rows[s.y - corner.y] |= before(s.x_end) & ~before(s.x_begin);
+    rows_[s.y - corner.y] |= before(s.x_end) & ~before(s.x_begin);
     count += s.x_end - s.x_begin;
   }
-  const bool full = count == side * side;
-  if (full) plan.rows.resize(first);
-  plan.blocks.push_back({corner.x, corner.y, side, full, static_cast<std::uint32_t>(first)});
+  full_ = count == side * side;
+}
+
+/// The bits of one of the smallest blocks.
+std::uint64_t BlockPlanner::smallest_samples() const {
+  std::uint64_t bits = 0;
+  for (int y = 0; y < kSmallest; ++y) bits |= std::uint64_t{rows_[y]} << kSmallest * y;
+  return bits;
 }
 
 /// What lies in the smallest blocks tried.

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "block_check.h"
 #include "block_colors.h"
 #include "block_plan.h"
 
@@ -18,8 +17,8 @@ class BlockPlanner {
   /// Of a patch with these bounds for some of its spans, rows in ascending order. What a sample
   /// gets does not depend on the other spans, unless these are all of the patch: `complete`, which
   /// must not depend on the window.
-  void plan(PatchShader& shader, const SampleWindow& bounds, std::span<const SampleSpan> spans,
-            bool complete, BlockPlan& plan);
+  void plan(const PatchShader& shader, const SampleWindow& bounds,
+            std::span<const SampleSpan> spans, bool complete, BlockPlan& plan);
 
  private:
   static constexpr int kSmallest = kBlockSides[2];
@@ -39,16 +38,18 @@ class BlockPlanner {
   std::vector<Corner> tried_;       // blocks
   std::vector<ColorBlock> blocks_;  // those tried
   std::vector<std::uint8_t> fit_;
-  std::vector<SampleSpan> inside_;  // a block
-  BlockCheck check_;
+  std::vector<SampleSpan> inside_;      // a block
+  std::uint32_t rows_[kBlockSides[0]];  // of a block: a bit for each sample inside
+  bool full_ = false;
 
   void find_bands();
   void start(int largest);
   Band spans_in(const Corner& corner, int side) const;
   void find_inside(const Corner& corner, int side);
-  void take_fitting(PatchShader& shader, int side, BlockPlan& plan);
-  bool take(PatchShader& shader, std::size_t tried, int side, BlockPlan& plan);
-  void cover(const Corner& corner, int side, BlockPlan& plan) const;
+  void find_rows(const Corner& corner, int side);
+  std::uint64_t smallest_samples() const;
+  void take_fitting(const PatchShader& shader, int side, BlockPlan& plan);
+  bool take(const PatchShader& shader, std::size_t tried, int side, BlockPlan& plan);
   void take_rest(BlockPlan& plan);
 };
 

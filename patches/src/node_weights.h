@@ -27,4 +27,21 @@ struct NodeWeights {
 template <int kSide>
 inline constexpr NodeWeights<kSide> kNodes;
 
+/// The same for every sample of a block of eight, row by row, and where its centre lies.
+struct SampleWeights {
+  alignas(64) float x[64], y[64], across[4][64], down[4][64];
+
+  constexpr SampleWeights() : x(), y(), across(), down() {
+    for (int n = 0; n < 64; ++n) {
+      x[n] = static_cast<float>(n % 8) + 0.5f;
+      y[n] = static_cast<float>(n / 8) + 0.5f;
+      for (int i = 0; i < 4; ++i) {
+        across[i][n] = kNodes<8>.weight[i][n % 8];
+        down[i][n] = kNodes<8>.weight[i][n / 8];
+      }
+    }
+  }
+};
+inline constexpr SampleWeights kSamples;
+
 }  // namespace quadrille

@@ -17,14 +17,6 @@ void PatchShader::shade(ColorBatch& batch) {
   }
 }
 
-bool PatchShader::shade_found(ColorBatch& batch) const {
-  if (!program_.regular) return false;
-  invert_points(program_, view_.map, batch);
-  if (batch.missing_count != 0) return false;
-  shade_parameters(program_, scene_.patches().opaque, batch);
-  return true;
-}
-
 void PatchShader::judge(int side, std::span<const ColorBlock> blocks, std::uint8_t* fit) const {
   std::fill(fit, fit + blocks.size(), std::uint8_t{0});
   if (program_.regular) {
@@ -33,7 +25,13 @@ void PatchShader::judge(int side, std::span<const ColorBlock> blocks, std::uint8
 }
 
 bool PatchShader::find_nodes(int side, const ColorBlock& block, float* nodes) const {
+  if (!program_.regular) return false;
   return find_block_nodes(program_, view_.map, scene_.patches().opaque, side, block, nodes);
+}
+
+bool PatchShader::matches(const ColorBlock& block, const float* nodes,
+                          std::uint64_t samples) const {
+  return block_matches(program_, view_.map, opaque(), block, nodes, samples);
 }
 
 void PatchShader::shade_exactly(ColorBatch& batch, int i) {

@@ -23,12 +23,11 @@ class PatchShader {
 
   /// Colours at the batch's points.
   void shade(ColorBatch& batch);
-  /// The same where Newton's method finds all parameters; false where it does not.
-  bool shade_found(ColorBatch& batch) const;
 
-  /// judge_blocks() and find_block_nodes() of the patch.
+  /// judge_blocks(), find_block_nodes() and block_matches() of the patch.
   void judge(int side, std::span<const ColorBlock> blocks, std::uint8_t* fit) const;
   bool find_nodes(int side, const ColorBlock& block, float* nodes) const;
+  bool matches(const ColorBlock& block, const float* nodes, std::uint64_t samples) const;
 
  private:
   /// For points whose parameters Newton's method does not find.
