@@ -120,37 +120,38 @@ void BlockPlanner::take_fitting(const PatchShader& shader, int side, BlockPlan& 
 
 /// Takes a block tried if it fits.
 bool BlockPlanner::take(const PatchShader& shader, std::size_t tried, int side, BlockPlan& plan) {
-  // Of larger blocks more is proven, and where that fails few would match.
-  const bool compared = complete_ && side == kSmallest;
+  const Corner c = tried_[tried];
+  find_rows(c, side);
+  // Of larger blocks more is proven, and where that fails few would match. Of small parts of blocks
+  // the points are cheaper than the nodes.
+  const bool compared = complete_ && side == kSmallest && sample_count_ >= BlockPlan::kNodes;
   if (!fit_[tried] && !compared) return false;
   const ColorBlock& block = blocks_[tried];
   const std::size_t before = plan.nodes.size();
   plan.nodes.resize(before + BlockPlan::kNodes * (shader.opaque() ? 3 : 4));
   float* const nodes = plan.nodes.data() + before;
-  const Corner c = tried_[tried];
-  find_rows(c, side);
   if (!shader.find_nodes(side, block, nodes) ||
       !(fit_[tried] || shader.matches(block, nodes, smallest_samples()))) {
     plan.nodes.resize(before);
     return false;
   }
-  plan.blocks.push_back({c.x, c.y, side, full_, static_cast<std::uint32_t>(plan.rows.size())});
-  if (!full_) plan.rows.insert(plan.rows.end(), rows_, rows_ + side);
+  const bool full = sample_count_ == side * side;
+  plan.blocks.push_back({c.x, c.y, side, full, static_cast<std::uint32_t>(plan.rows.size())});
+  if (!full) plan.rows.insert(plan.rows.end(), rows_, rows_ + side);
   return true;
 }
 
 /// Sets the bits of what lies inside a block.
 void BlockPlanner::find_rows(const Corner& corner, int side) {
   std::fill_n(rows_, side, 0u);
-  int count = 0;
+  sample_count_ = 0;
   for (const SampleSpan& s : inside_) {
     const auto before = [&](int x) {
       return static_cast<std::uint32_t>((std::uint64_t{1} << (x - corner.x)) - 1);
     };
     rows_[s.y - corner.y] |= before(s.x_end) & ~before(s.x_begin);
-    count += s.x_end - s.x_begin;
+    sample_count_ += s.x_end - s.x_begin;
   }
-  full_ = count == side * side;
 }
 
 /// The bits of one of the smallest blocks.

@@ -40,7 +40,7 @@ class BlockPlanner {
   std::vector<std::uint8_t> fit_;
   std::vector<SampleSpan> inside_;      // a block
   std::uint32_t rows_[kBlockSides[0]];  // of a block: a bit for each sample inside
-  bool full_ = false;
+  int sample_count_ = 0;                // of these bits
 
   void find_bands();
   void start(int largest);
