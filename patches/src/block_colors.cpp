@@ -20,8 +20,6 @@ namespace {
 constexpr float kReach = 0.5f;
 /// How much steeper than inside the square colours may be at nodes.
 constexpr float kSteeper = 2;
-/// Newton's method at samples, see invert().
-constexpr float kMargin = 0.02f;
 
 struct Normalized {
   V x, y;

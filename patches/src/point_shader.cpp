@@ -14,9 +14,6 @@ namespace quadrille {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Parameters may end this far outside the square; the outline is scanned as a polyline.
-constexpr float kMargin = 0.02f;
-
 /// Vectors that are inverted side by side.
 constexpr int kTogether = 2;
 
