@@ -1,47 +1,15 @@
 #include "block_colors.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
+
+#include "node_weights.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "block_colors.cpp"
 #include <hwy/foreach_target.h>
 
 #include "block_bound-inl.h"
-
-#ifndef QUADRILLE_BLOCK_COLORS_ONCE
-#define QUADRILLE_BLOCK_COLORS_ONCE
-
-namespace quadrille {
-
-/// Four Chebyshev nodes on a side of a block, and how much each weighs at the samples' centres.
-template <int kSide>
-struct NodeWeights {
-  float node[4];
-  alignas(64) float weight[4][kSide];
-
-  constexpr NodeWeights() : node(), weight() {
-    constexpr double kCosine[4] = {-0.92387953251128674, -0.38268343236508977, 0.38268343236508977,
-                                   0.92387953251128674};
-    for (int i = 0; i < 4; ++i) node[i] = static_cast<float>(kSide / 2.0 * (1 + kCosine[i]));
-    for (int i = 0; i < 4; ++i) {
-      for (int x = 0; x < kSide; ++x) {
-        const double at = (x + 0.5) / (kSide / 2.0) - 1;
-        double product = 1;
-        for (int j = 0; j < 4; ++j) {
-          if (j != i) product *= (at - kCosine[j]) / (kCosine[i] - kCosine[j]);
-        }
-        weight[i][x] = static_cast<float>(product);
-      }
-    }
-  }
-};
-template <int kSide>
-inline constexpr NodeWeights<kSide> kNodes;
-
-}  // namespace quadrille
-
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace quadrille {
@@ -90,7 +58,7 @@ void judge(const PatchProgram& p, const float (&map)[6], bool opaque, int side,
 
 template <int kSide>
 bool find_nodes_of(const PatchProgram& p, const float (&map)[6], bool opaque,
-                   const ColorBlock& block, BlockNodes& nodes) {
+                   const ColorBlock& block, float* nodes) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   alignas(64) float xs[16], ys[16];
@@ -105,14 +73,14 @@ bool find_nodes_of(const PatchProgram& p, const float (&map)[6], bool opaque,
     invert<1>(p, {point.x}, {point.y}, kReach, 8 * kSteeper, at);
     if (!hn::AllTrue(d, at[0].found)) return false;
     for (int k = 0; k < (opaque ? 3 : 4); ++k) {
-      hn::StoreU(bicubic(p.color[k], at[0].s, at[0].t), d, nodes[k] + i);
+      hn::StoreU(bicubic(p.color[k], at[0].s, at[0].t), d, nodes + BlockPlan::kNodes * k + i);
     }
   }
   return true;
 }
 
 bool find_nodes(const PatchProgram& p, const float (&map)[6], bool opaque, int side,
-                const ColorBlock& block, BlockNodes& nodes) {
+                const ColorBlock& block, float* nodes) {
   switch (side) {
     case 8:
       return find_nodes_of<8>(p, map, opaque, block, nodes);
@@ -123,89 +91,55 @@ bool find_nodes(const PatchProgram& p, const float (&map)[6], bool opaque, int s
   }
 }
 
-/// Interpolates the nodes' values in y: columns[i][y].
-template <int kSide>
-HWY_INLINE void interpolate_columns(const float (&nodes)[16], float (&columns)[4][kSide]) {
-  const hn::CappedTag<float, std::min(kSide, 16)> d;
-  const auto& weight = kNodes<kSide>.weight;
-  for (int y = 0; y < kSide; y += static_cast<int>(hn::Lanes(d))) {
-    for (int i = 0; i < 4; ++i) {
-      auto sum = hn::Set(d, nodes[i]) * hn::Load(d, weight[0] + y);
-      for (int j = 1; j < 4; ++j) {
-        sum = sum + hn::Set(d, nodes[4 * j + i]) * hn::Load(d, weight[j] + y);
-      }
-      hn::Store(sum, d, columns[i] + y);
-    }
+/// The polynomial through the nodes at the samples from `first` on.
+HWY_INLINE V interpolated(const float* nodes, int first) {
+  const Floats d;
+  V across[4], sum = hn::Zero(d);
+  for (int i = 0; i < 4; ++i) across[i] = hn::Load(d, kSamples.across[i] + first);
+  for (int j = 0; j < 4; ++j) {
+    V row = hn::Zero(d);
+    for (int i = 0; i < 4; ++i) row = row + number(nodes[4 * j + i]) * across[i];
+    sum = sum + row * hn::Load(d, kSamples.down[j] + first);
   }
+  return sum;
 }
 
-/// Paints the columns [begin, end) of one row of a block, of which `out` is the first sample.
-template <int kSide, bool opaque>
-HWY_INLINE void paint_row(const float (&columns)[opaque ? 3 : 4][4][kSide], int y, int begin,
-                          int end, float* const (&out)[4], bool has_alpha) {
-  const hn::CappedTag<float, std::min(kSide, 16)> d;
-  using Vector = hn::Vec<decltype(d)>;
+bool matches(const PatchProgram& p, const float (&map)[6], bool opaque, const ColorBlock& block,
+             const float* nodes, std::uint64_t samples) {
+  constexpr float kAllowed = 1.0f / 170 / 255;
+  constexpr int kTogether = 2;
+  const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const auto& weight = kNodes<kSide>.weight;
-  const Vector zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const auto paint_vector = [&](int x, const auto& store) {
-    const Vector w[4] = {hn::Load(d, weight[0] + x), hn::Load(d, weight[1] + x),
-                         hn::Load(d, weight[2] + x), hn::Load(d, weight[3] + x)};
-    const auto color = [&](int k) {
-      Vector sum = hn::Set(d, columns[k][0][y]) * w[0];
-      for (int i = 1; i < 4; ++i) sum = sum + hn::Set(d, columns[k][i][y]) * w[i];
-      return sum;
-    };
-    Vector alpha = one;
-    if constexpr (!opaque) alpha = hn::Min(hn::Max(color(3), zero), one);
-    const Vector c[3] = {color(0), color(1), color(2)};
-    for (int k = 0; k < 3; ++k) store(hn::Min(hn::Max(c[k], zero), alpha), out[k] + x);
-    if (!opaque || has_alpha) store(alpha, out[3] + x);
-  };
-  if (begin == 0 && end == kSide) {
-    for (int x = 0; x < kSide; x += lanes) {
-      paint_vector(x, [&](const Vector& v, float* to) { hn::StoreU(v, d, to); });
+  const V zero = hn::Zero(d), one = number(1);
+  for (int first = 0; first < 64; first += kTogether * lanes) {
+    V x[kTogether], y[kTogether];
+    for (int k = 0; k < kTogether; ++k) {
+      const V from_left = hn::Load(d, kSamples.x + first + k * lanes);
+      const V from_top = hn::Load(d, kSamples.y + first + k * lanes);
+      const Normalized at =
+          normalized(map, number(block.x) + from_left, number(block.y) + from_top);
+      x[k] = at.x, y[k] = at.y;
     }
-    return;
+    Parameters at[kTogether];
+    invert<kTogether>(p, x, y, kMargin, 1, at);
+    for (int k = 0; k < kTogether; ++k) {
+      const int n = first + k * lanes;
+      Mask good = at[k].found;
+      for (int c = 0; c < (opaque ? 3 : 4); ++c) {
+        const V here = interpolated(nodes + BlockPlan::kNodes * c, n);
+        const V there = bicubic(p.color[c], at[k].s, at[k].t);
+        const V off = hn::Min(hn::Max(here, zero), one) - hn::Min(hn::Max(there, zero), one);
+        good = hn::And(good, hn::Abs(off) <= number(kAllowed));
+      }
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(d, good, bits);
+      std::uint64_t good_ones;
+      std::memcpy(&good_ones, bits, sizeof bits);
+      const std::uint64_t wanted = samples >> n & ((std::uint64_t{1} << lanes) - 1);
+      if (wanted & ~good_ones) return false;
+    }
   }
-  const Vector counted = hn::Iota(d, 0);
-  for (int x = begin & -lanes; x < end; x += lanes) {
-    const auto inside = hn::And(counted >= hn::Set(d, static_cast<float>(begin - x)),
-                                counted < hn::Set(d, static_cast<float>(end - x)));
-    paint_vector(x, [&](const Vector& v, float* to) { hn::BlendedStore(v, inside, d, to); });
-  }
-}
-
-template <int kSide, bool opaque>
-void paint_of(const BlockNodes& nodes, const BlockTarget& target) {
-  constexpr int kChannels = opaque ? 3 : 4;
-  alignas(64) float columns[kChannels][4][kSide];
-  for (int k = 0; k < kChannels; ++k) interpolate_columns<kSide>(nodes[k], columns[k]);
-  const SampleWindow& window = target.window;
-  const SamplePlanes& samples = target.samples;
-  for (const SampleSpan& span : target.spans) {
-    if (span.y < window.y_begin || span.y >= window.y_end) continue;
-    const int begin = std::max({span.x_begin, window.x_begin, target.left}) - target.left;
-    const int end = std::min({span.x_end, window.x_end, target.left + kSide}) - target.left;
-    if (begin >= end) continue;
-    const std::ptrdiff_t row =
-        (span.y - window.y_begin) * samples.stride + (target.left - window.x_begin);
-    paint_row<kSide, opaque>(columns, span.y - target.top, begin, end,
-                             {samples.channel[0] + row, samples.channel[1] + row,
-                              samples.channel[2] + row, samples.channel[3] + row},
-                             samples.has_alpha);
-  }
-}
-
-void paint(const BlockNodes& nodes, bool opaque, int side, const BlockTarget& target) {
-  switch (side) {
-    case 8:
-      return (opaque ? paint_of<8, true> : paint_of<8, false>)(nodes, target);
-    case 16:
-      return (opaque ? paint_of<16, true> : paint_of<16, false>)(nodes, target);
-    default:
-      return (opaque ? paint_of<32, true> : paint_of<32, false>)(nodes, target);
-  }
+  return true;
 }
 
 }  // namespace
@@ -218,7 +152,7 @@ namespace quadrille {
 namespace {
 HWY_EXPORT(judge);
 HWY_EXPORT(find_nodes);
-HWY_EXPORT(paint);
+HWY_EXPORT(matches);
 }  // namespace
 
 void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
@@ -227,12 +161,13 @@ void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaqu
 }
 
 bool find_block_nodes(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
-                      const ColorBlock& block, BlockNodes& nodes) {
+                      const ColorBlock& block, float* nodes) {
   return HWY_DYNAMIC_DISPATCH(find_nodes)(program, map, opaque, side, block, nodes);
 }
 
-void paint_block(const BlockNodes& nodes, bool opaque, int side, const BlockTarget& target) {
-  HWY_DYNAMIC_DISPATCH(paint)(nodes, opaque, side, target);
+bool block_matches(const PatchProgram& program, const float (&map)[6], bool opaque,
+                   const ColorBlock& block, const float* nodes, std::uint64_t samples) {
+  return HWY_DYNAMIC_DISPATCH(matches)(program, map, opaque, block, nodes, samples);
 }
 
 }  // namespace quadrille

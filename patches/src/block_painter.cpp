@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "block_paint.h"
 #include "patch_shader.h"
 
 namespace quadrille {
@@ -21,9 +22,11 @@ void set_planes(std::vector<float>& memory, SamplePlanes& planes) {
 
 }  // namespace
 
-BlockPainter::BlockPainter() : points_(std::make_unique<Pending>()) {
+BlockPainter::BlockPainter()
+    : words_memory_(kOverhang + kPlane + kOverhang), points_(std::make_unique<Pending>()) {
   set_planes(memory_[0], picture_);
   set_planes(memory_[1], layer_);
+  words_ = {words_memory_.data() + kOverhang, kBlockSide};
 }
 
 void BlockPainter::clear(SamplePlanes& planes) {
@@ -39,6 +42,7 @@ const SamplePlanes& BlockPainter::paint(const std::vector<LayerScene>& scenes,
                                         const SampleWindow& window, bool with_alpha) {
   window_ = window;
   with_alpha_ = with_alpha;
+  as_words_ = false;
   bool first = true;
   for (const LayerScene& scene : scenes) {
     const auto patches = scene.patches_at(window);
@@ -54,6 +58,17 @@ const SamplePlanes& BlockPainter::paint(const std::vector<LayerScene>& scenes,
   }
   if (first) clear(picture_);
   return picture_;
+}
+
+PixelWords BlockPainter::paint_words(const LayerScene& scene, const SampleWindow& window,
+                                     const PixelPacker& packer) {
+  window_ = window;
+  with_alpha_ = false;
+  as_words_ = true;
+  layer_.has_alpha = false;
+  paint_layer(scene, scene.patches_at(window));
+  pack_blank(scene.edges_at(window), packer);
+  return words_;
 }
 
 /// Puts the layer over the picture.
@@ -159,16 +174,35 @@ void BlockPainter::find_blank(BlockEdges& edges) {
   }
 }
 
-void BlockPainter::clear_blank(const BlockEdges& edges) {
+/// The part in the window of samples relative to the block, relative to the window; empty ranges
+/// where there is none.
+SampleSpan BlockPainter::clipped(const SampleSpan& blank) const {
   const int left = window_.x_begin & (kBlockSide - 1), top = window_.y_begin & (kBlockSide - 1);
-  for (const SampleSpan& s : edges.blank) {
-    const int y = s.y - top;
-    const int begin = std::max(s.x_begin - left, 0), end = std::min(s.x_end - left, width());
-    if (y < 0 || y >= height() || begin >= end) continue;
+  const int y = blank.y - top;
+  if (y < 0 || y >= height()) return {0, 0, 0};
+  const int begin = std::max(blank.x_begin - left, 0);
+  return {y, begin, std::max(begin, std::min(blank.x_end - left, width()))};
+}
+
+void BlockPainter::clear_blank(const BlockEdges& edges) {
+  for (const SampleSpan& blank : edges.blank) {
+    const SampleSpan s = clipped(blank);
     for (int k = 0; k < channels(); ++k) {
-      float* const row = layer_.channel[k] + y * layer_.stride;
-      std::fill(row + begin, row + end, 0.0f);
+      float* const row = layer_.channel[k] + s.y * layer_.stride;
+      std::fill(row + s.x_begin, row + s.x_end, 0.0f);
     }
+  }
+}
+
+/// What lies in the layer's planes only.
+void BlockPainter::pack_blank(const BlockEdges& edges, const PixelPacker& packer) {
+  for (const SampleSpan& blank : edges.blank) {
+    const SampleSpan s = clipped(blank);
+    if (s.x_begin >= s.x_end) continue;
+    const std::ptrdiff_t at = s.y * layer_.stride + s.x_begin;
+    SamplePlanes part = layer_;
+    for (int k = 0; k < 3; ++k) part.channel[k] += at;
+    packer.write(part, s.x_end - s.x_begin, 1, reinterpret_cast<std::byte*>(words_.first + at), 0);
   }
 }
 
@@ -199,8 +233,12 @@ void BlockPainter::flush(PatchShader& shader) {
   Pending& pending = *points_;
   if (pending.colors.count == 0) return;
   shader.shade(pending.colors);
-  scatter_runs(pending.colors, pending.runs, pending.run_count, channels(),
-               {layer_.channel[0], layer_.channel[1], layer_.channel[2], layer_.channel[3]});
+  if (as_words_) {
+    scatter_words(pending.colors, pending.runs, pending.run_count, words_.first);
+  } else {
+    scatter_runs(pending.colors, pending.runs, pending.run_count, channels(),
+                 {layer_.channel[0], layer_.channel[1], layer_.channel[2], layer_.channel[3]});
+  }
   pending.colors.count = pending.run_count = 0;
 }
 
@@ -209,14 +247,12 @@ void BlockPainter::paint_interior(const LayerScene& scene, int patch) {
   if (part.empty()) return;
   const auto spans = all_spans(scene, patch);
   PatchShader shader(scene, patch);
-  if (!scene.plans().has(patch)) planner_.plan(shader, bounds, spans, plan_);
+  if (!scene.plans().has(patch)) planner_.plan(shader, bounds, spans, false, plan_);
   const BlockPlan& plan = scene.plans().has(patch) ? scene.plans().of(patch) : plan_;
-  for (const BlockPlan::Block& block : plan.blocks) {
-    const SampleWindow square = {block.x, block.y, block.x + block.side, block.y + block.side};
-    if (intersection(square, window_).empty()) continue;
-    paint_block(
-        block.nodes, scene.patches().opaque, block.side,
-        {block.x, block.y, spans.subspan(block.begin, block.end - block.begin), window_, layer_});
+  if (as_words_) {
+    paint_blocks(plan, window_, words_);
+  } else {
+    paint_blocks(plan, scene.patches().opaque, window_, layer_);
   }
   const auto points = plan.blocks.empty() ? spans : std::span(plan.points);
   paint_points(shader, part == bounds ? points : clipped(points));

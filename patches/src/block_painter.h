@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "block_colors.h"
 #include "block_edges.h"
+#include "block_planner.h"
 #include "layer_scene.h"
 #include "outline_pixels.h"
 #include "pixel_packer.h"
@@ -29,6 +29,11 @@ class BlockPainter {
   const SamplePlanes& paint(const std::vector<LayerScene>& scenes, const SampleWindow& window,
                             bool with_alpha);
 
+  /// Draws a single opaque layer without alpha as 8-bit pixels, the same as the packer makes of
+  /// what paint() gives. The result is valid until the next call.
+  PixelWords paint_words(const LayerScene& scene, const SampleWindow& window,
+                         const PixelPacker& packer);
+
  private:
   /// Points or parameters of one patch, and where their colours go.
   struct Pending {
@@ -40,8 +45,11 @@ class BlockPainter {
 
   SampleWindow window_;
   bool with_alpha_ = true;
+  bool as_words_ = false;  // interiors go to words_ instead of layer_
   std::vector<float> memory_[2];
   SamplePlanes picture_, layer_;
+  std::vector<std::uint32_t> words_memory_;
+  PixelWords words_;
   TileOutlines outlines_;
   std::vector<SampleSpan> spans_;
   /// A bit for each sample of a row that a patch covers.
@@ -62,7 +70,9 @@ class BlockPainter {
   void find_edges(const LayerScene& scene, std::span<const int> patches, BlockEdges& edges);
   void cover(std::span<const SampleSpan> spans);
   void find_blank(BlockEdges& edges);
+  SampleSpan clipped(const SampleSpan& blank) const;
   void clear_blank(const BlockEdges& edges);
+  void pack_blank(const BlockEdges& edges, const PixelPacker& packer);
   std::span<const SampleSpan> all_spans(const LayerScene& scene, int patch);
   std::span<const SampleSpan> clipped(std::span<const SampleSpan> spans);
   void paint_layer(const LayerScene& scene, std::span<const int> patches);

@@ -1,59 +1,47 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "block_colors.h"
+#include "patch_scan.h"
 
 namespace quadrille {
 
-class PatchShader;
+/// Samples are cut into square blocks on absolute grids, in each of which a patch's colours are
+/// bicubic polynomials of the sample's position wherever that is exact enough.
+constexpr int kBlockSides[] = {32, 16, 8};
 
 /// How the samples of one patch get their colours.
 struct BlockPlan {
-  /// A block whose polynomials are good enough, and the patch's spans [begin, end) in its rows.
+  /// A block whose polynomials are good enough. `full` where all its samples are the patch's;
+  /// otherwise `coverage` is where its rows begin.
   struct Block {
-    int x, y, side, begin, end;
-    BlockNodes nodes;
+    int x, y, side;
+    bool full;
+    std::uint32_t coverage;
   };
+  static constexpr int kNodes = 16;
+
   std::vector<Block> blocks;
-  /// The samples in none of them. Without blocks the list stays empty and means all samples.
+  /// Colours at each block's 4 x 4 Chebyshev nodes, before clamping: kNodes for each channel, of
+  /// which there are three where the patch is opaque, otherwise four.
+  std::vector<float> nodes;
+  /// A word for each row of a block that is not full; bit i stands for the sample in column i.
+  std::vector<std::uint32_t> rows;
+  /// The samples in none of the blocks. Without blocks the list stays empty and means all samples.
   std::vector<SampleSpan> points;
-};
 
-/// Finds the largest blocks on the absolute grids that are good enough; one for each thread.
-class BlockPlanner {
- public:
-  /// Of a patch with these bounds for some of its spans, rows in ascending order. What a sample
-  /// gets does not depend on the other spans.
-  void plan(const PatchShader& shader, const SampleWindow& bounds,
-            std::span<const SampleSpan> spans, BlockPlan& plan);
-
- private:
-  static constexpr int kSmallest = kBlockSides[2];
-  /// The spans of some rows and the range of columns that they reach into.
-  struct Band {
-    int begin, end, x_begin, x_end;
-  };
-  /// The first sample of a block.
-  struct Corner {
-    int x, y;
-  };
-
-  std::span<const SampleSpan> spans_;
-  int first_band_ = 0;
-  std::vector<Band> bands_;         // of rows as high as the smallest blocks
-  std::vector<Corner> tried_;       // blocks
-  std::vector<ColorBlock> blocks_;  // those tried
-  std::vector<std::uint8_t> fit_;
-
-  void find_bands();
-  void start(int largest);
-  Band spans_in(const Corner& corner, int side) const;
-  void take_fitting(const PatchShader& shader, int side, BlockPlan& plan);
-  void take_rest(BlockPlan& plan) const;
+  void clear() {
+    blocks.clear();
+    nodes.clear();
+    rows.clear();
+    points.clear();
+  }
+  std::size_t bytes() const {
+    return blocks.size() * sizeof(Block) + nodes.size() * sizeof(float) +
+           rows.size() * sizeof(rows[0]) + points.size() * sizeof(SampleSpan);
+  }
 };
 
 /// The plans of those patches of a scene that were asked for so far, kept from window to window.
@@ -62,10 +50,6 @@ class KeptPlans {
   void start(std::size_t patch_count) { plans_.assign(patch_count, {}); }
   bool has(int patch) const { return plans_[patch].known; }
   void set(int patch, BlockPlan plan) { plans_[patch] = {std::move(plan), true}; }
-  std::size_t bytes(int patch) const {
-    const BlockPlan& plan = plans_[patch].plan;
-    return plan.blocks.size() * sizeof(BlockPlan::Block) + plan.points.size() * sizeof(SampleSpan);
-  }
   const BlockPlan& of(int patch) const { return plans_[patch].plan; }
 
  private:

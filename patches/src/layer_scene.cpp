@@ -108,11 +108,12 @@ void LayerScene::prepare_programs(WorkArena& arena) {
     const std::size_t end = std::min(unplanned_.size(), (r + 1) * kPlanned);
     for (std::size_t i = r * kPlanned; i < end; ++i) {
       const int q = unplanned_[i];
-      planner.plan(PatchShader(*this, q), scan_.bounds(q), spans_.of(q), plan);
+      PatchShader shader(*this, q);
+      planner.plan(shader, scan_.bounds(q), spans_.of(q), true, plan);
       plans_.set(q, plan);
     }
   });
-  for (const int q : unplanned_) plan_bytes_ += plans_.bytes(q);
+  for (const int q : unplanned_) plan_bytes_ += plans_.of(q).bytes();
 }
 
 }  // namespace quadrille

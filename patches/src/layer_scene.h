@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "block_edges.h"
-#include "block_plan.h"
+#include "block_planner.h"
 #include "patch_bins.h"
 #include "patch_program.h"
 #include "patch_scan.h"

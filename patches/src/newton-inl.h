@@ -21,6 +21,9 @@ using Floats = hn::CappedTag<float, 16>;
 using V = hn::Vec<Floats>;
 using Mask = hn::Mask<Floats>;
 
+/// Samples' parameters may end this far outside the square; the outline is scanned as a polyline.
+constexpr float kMargin = 0.02f;
+
 HWY_INLINE V number(float x) { return hn::Set(Floats(), x); }
 
 struct Parameters {

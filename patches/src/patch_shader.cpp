@@ -24,8 +24,14 @@ void PatchShader::judge(int side, std::span<const ColorBlock> blocks, std::uint8
   }
 }
 
-bool PatchShader::find_nodes(int side, const ColorBlock& block, BlockNodes& nodes) const {
+bool PatchShader::find_nodes(int side, const ColorBlock& block, float* nodes) const {
+  if (!program_.regular) return false;
   return find_block_nodes(program_, view_.map, scene_.patches().opaque, side, block, nodes);
+}
+
+bool PatchShader::matches(const ColorBlock& block, const float* nodes,
+                          std::uint64_t samples) const {
+  return block_matches(program_, view_.map, opaque(), block, nodes, samples);
 }
 
 void PatchShader::shade_exactly(ColorBatch& batch, int i) {

@@ -19,13 +19,15 @@ class PatchShader {
 
   /// See PatchView; the points of batches are relative to it.
   const std::array<int, 2>& origin() const { return view_.origin; }
+  bool opaque() const { return scene_.patches().opaque; }
 
   /// Colours at the batch's points.
   void shade(ColorBatch& batch);
 
-  /// judge_blocks() and find_block_nodes() of the patch.
+  /// judge_blocks(), find_block_nodes() and block_matches() of the patch.
   void judge(int side, std::span<const ColorBlock> blocks, std::uint8_t* fit) const;
-  bool find_nodes(int side, const ColorBlock& block, BlockNodes& nodes) const;
+  bool find_nodes(int side, const ColorBlock& block, float* nodes) const;
+  bool matches(const ColorBlock& block, const float* nodes, std::uint64_t samples) const;
 
  private:
   /// For points whose parameters Newton's method does not find.

@@ -14,6 +14,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "pixel_words-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace quadrille {
 namespace HWY_NAMESPACE {
@@ -31,10 +33,11 @@ template <class Sample>
 HWY_INLINE auto quantized(const V& v) {
   if constexpr (std::is_same_v<Sample, float>) {
     return v;
+  } else if constexpr (sizeof(Sample) == 1) {
+    return hn::TruncateTo(hn::Rebind<Sample, Floats>(), low_bytes(Floats(), v));
   } else {
-    constexpr float kFull = sizeof(Sample) == 1 ? 255.0f : 65535.0f;
     const Floats d;
-    const V scaled = v * hn::Set(d, kFull) + hn::Set(d, 0.5f);
+    const V scaled = v * hn::Set(d, 65535.0f) + hn::Set(d, 0.5f);
     return hn::DemoteTo(hn::Rebind<Sample, Floats>(),
                         hn::ConvertTo(hn::RebindToSigned<Floats>(), scaled));
   }
@@ -45,13 +48,10 @@ HWY_INLINE void write_vector(const V (&c)[4], Sample* out) {
   const hn::Rebind<Sample, Floats> d;
   if constexpr (channels == 4 && sizeof(Sample) == 1 && kPacksWords) {
     const Floats df;
-    const auto whole = [&](const V& v) {
-      return hn::ConvertTo(hn::RebindToSigned<Floats>(),
-                           v * hn::Set(df, 255.0f) + hn::Set(df, 0.5f));
-    };
-    const auto low = hn::Or(whole(c[0]), hn::ShiftLeft<8>(whole(c[1])));
-    const auto high = hn::Or(hn::ShiftLeft<16>(whole(c[2])), hn::ShiftLeft<24>(whole(c[3])));
-    hn::StoreU(hn::BitCast(hn::Repartition<Sample, Floats>(), hn::Or(low, high)),
+    const auto words = hn::Or(hn::AndNot(hn::Set(hn::RebindToUnsigned<Floats>(), 0xff000000u),
+                                         opaque_words(df, c[0], c[1], c[2])),
+                              hn::ShiftLeft<24>(low_bytes(df, c[3])));
+    hn::StoreU(hn::BitCast(hn::Repartition<Sample, Floats>(), words),
                hn::Repartition<Sample, Floats>(), out);
   } else if constexpr (channels == 3) {
     hn::StoreInterleaved3(quantized<Sample>(c[0]), quantized<Sample>(c[1]), quantized<Sample>(c[2]),

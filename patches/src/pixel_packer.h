@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "quadrille/renderer.h"
 
@@ -13,6 +14,12 @@ struct SamplePlanes {
   std::array<float*, 4> channel = {};
   std::ptrdiff_t stride = 0;
   bool has_alpha = true;
+};
+
+/// Rows of opaque 8-bit pixels of four channels, `stride` from row to row.
+struct PixelWords {
+  std::uint32_t* first = nullptr;
+  std::ptrdiff_t stride = 0;
 };
 
 /// Puts premultiplied samples over a background and writes them as output pixels.

@@ -7,14 +7,12 @@
 #include <hwy/foreach_target.h>
 
 #include "newton-inl.h"
+#include "pixel_words-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace quadrille {
 namespace HWY_NAMESPACE {
 namespace {
-
-/// Parameters may end this far outside the square; the outline is scanned as a polyline.
-constexpr float kMargin = 0.02f;
 
 /// Vectors that are inverted side by side.
 constexpr int kTogether = 2;
@@ -116,6 +114,24 @@ void scatter(const ColorBatch& batch, const PointRun* runs, int run_count, int c
   }
 }
 
+void scatter_as_words(const ColorBatch& batch, const PointRun* runs, int run_count,
+                      std::uint32_t* pixels) {
+  const Floats d;
+  const hn::RebindToUnsigned<Floats> du;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  for (int r = 0; r < run_count; ++r) {
+    const PointRun run = runs[r];
+    for (int i = 0; i < run.count; i += lanes) {
+      const auto inside = hn::FirstN(du, static_cast<std::size_t>(run.count - i));
+      const int at = run.begin + i;
+      const auto words =
+          opaque_words(d, hn::LoadU(d, batch.color[0] + at), hn::LoadU(d, batch.color[1] + at),
+                       hn::LoadU(d, batch.color[2] + at));
+      hn::BlendedStore(words, inside, du, pixels + run.target + i);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace quadrille
@@ -128,6 +144,7 @@ HWY_EXPORT(append);
 HWY_EXPORT(invert_all);
 HWY_EXPORT(shade);
 HWY_EXPORT(scatter);
+HWY_EXPORT(scatter_as_words);
 }  // namespace
 
 int append_spans(std::span<const SampleSpan> spans, const std::array<int, 2>& origin,
@@ -152,6 +169,11 @@ void shade_parameters(const PatchProgram& program, bool opaque, ColorBatch& batc
 void scatter_runs(const ColorBatch& batch, const PointRun* runs, int run_count, int channels,
                   float* const (&planes)[4]) {
   HWY_DYNAMIC_DISPATCH(scatter)(batch, runs, run_count, channels, planes);
+}
+
+void scatter_words(const ColorBatch& batch, const PointRun* runs, int run_count,
+                   std::uint32_t* pixels) {
+  HWY_DYNAMIC_DISPATCH(scatter_as_words)(batch, runs, run_count, pixels);
 }
 
 }  // namespace quadrille

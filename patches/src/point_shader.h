@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "patch_program.h"
@@ -51,5 +52,8 @@ void shade_parameters(const PatchProgram& program, bool opaque, ColorBatch& batc
 /// Copies runs of channels to planes of samples.
 void scatter_runs(const ColorBatch& batch, const PointRun* runs, int run_count, int channels,
                   float* const (&planes)[4]);
+/// The same into opaque 8-bit pixels.
+void scatter_words(const ColorBatch& batch, const PointRun* runs, int run_count,
+                   std::uint32_t* pixels);
 
 }  // namespace quadrille

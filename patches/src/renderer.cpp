@@ -2,11 +2,14 @@
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
+#include <bit>
+#include <cstring>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "pixel_packer.h"
+#include "pixel_stream.h"
 #include "quadrille/error.h"
 #include "tile_grid.h"
 #include "tile_painter.h"
@@ -24,6 +27,28 @@ void check_layout(const PixelLayout& layout, bool opaque) {
               "a picture" + std::string(opaque ? "" : " with transparency") +
                   " cannot be drawn into " + std::to_string(layout.channels) + " channels; use 4" +
                   (opaque ? " or 3" : ", or put an opaque background behind it"));
+}
+
+/// Larger regions do not stay in the caches.
+constexpr double kCachedBytes = 4 << 20;
+
+/// Whether a pixel is a PixelWords' word.
+bool holds_words(const PixelLayout& layout) {
+  return std::endian::native == std::endian::little && layout.type == SampleType::uint8 &&
+         layout.channels == 4;
+}
+
+void copy(const PixelWords& words, const PixelRegion& tile, bool streamed, std::byte* pixels,
+          std::ptrdiff_t row_bytes) {
+  const std::ptrdiff_t word = sizeof(words.first[0]);
+  if (streamed) {
+    return stream_rows(reinterpret_cast<const std::byte*>(words.first), word * words.stride,
+                       static_cast<int>(word) * tile.width, tile.height, pixels, row_bytes);
+  }
+  for (int y = 0; y < tile.height; ++y) {
+    std::memcpy(pixels + y * row_bytes, words.first + y * words.stride,
+                sizeof(words.first[0]) * tile.width);
+  }
 }
 
 }  // namespace
@@ -46,13 +71,21 @@ class Renderer::Implementation {
     const TileGrid grid(frame);
     std::mutex reporting;
     std::size_t done = 0;
+    const bool as_words = !with_alpha && frame.box == std::array{1, 1} && holds_words(layout);
+    const bool streamed = 4.0 * frame.region.width * frame.region.height > kCachedBytes;
     arena_.for_each(grid.size(), [&](std::size_t index) {
       const PixelRegion tile = grid.tile(index);
-      const SamplePlanes& samples = painters_.local().paint(scenes_, frame, tile, with_alpha);
+      TilePainter& painter = painters_.local();
       std::byte* const corner = static_cast<std::byte*>(buffer.pixels) +
                                 (tile.y - frame.region.y) * buffer.row_bytes +
                                 (tile.x - frame.region.x) * layout.channels * bytes_of(layout.type);
-      packer.write(samples, tile.width, tile.height, corner, buffer.row_bytes);
+      if (as_words) {
+        copy(painter.paint_words(scenes_[0], tile, packer), tile, streamed, corner,
+             buffer.row_bytes);
+      } else {
+        const SamplePlanes& samples = painter.paint(scenes_, frame, tile, with_alpha);
+        packer.write(samples, tile.width, tile.height, corner, buffer.row_bytes);
+      }
       if (!context.on_progress) return;
       const std::lock_guard lock(reporting);
       context.progress("render", static_cast<double>(++done) / static_cast<double>(grid.size()));

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "tile_grid.h"
-
 namespace quadrille {
 
 const SamplePlanes& TilePainter::paint(const std::vector<LayerScene>& scenes,

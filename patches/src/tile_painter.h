@@ -4,6 +4,7 @@
 
 #include "block_painter.h"
 #include "output_frame.h"
+#include "tile_grid.h"
 
 namespace quadrille {
 
@@ -13,6 +14,11 @@ class TilePainter {
   /// The tile's premultiplied pixels, valid until the next call.
   const SamplePlanes& paint(const std::vector<LayerScene>& scenes, const OutputFrame& frame,
                             const PixelRegion& tile, bool with_alpha);
+  /// The tile's 8-bit pixels of a single opaque layer, where pixels are samples.
+  PixelWords paint_words(const LayerScene& scene, const PixelRegion& tile,
+                         const PixelPacker& packer) {
+    return blocks_.paint_words(scene, samples_of(tile, {1, 1}), packer);
+  }
 
  private:
   BlockPainter blocks_;

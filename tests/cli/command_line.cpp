@@ -12,15 +12,30 @@ namespace quadrille::test {
 
 namespace fs = std::filesystem;
 
-CommandResult quadrille(const std::vector<std::string>& arguments) {
+namespace {
+
+/// Runs the command in a shell after `prepare`.
+CommandResult run_command(const std::string& prepare, const std::vector<std::string>& arguments) {
   const fs::path err = scratch_dir() / "stderr.txt";
-  std::vector<std::string> argv = {"sh", "-c",         "err=$1; shift; exec \"$@\" 2>\"$err\"",
-                                   "sh", err.string(), QUADRILLE_COMMAND};
+  std::vector<std::string> argv = {
+      "sh", "-c",         prepare + "err=$1; shift; exec \"$@\" 2>\"$err\"",
+      "sh", err.string(), QUADRILLE_COMMAND};
   argv.insert(argv.end(), arguments.begin(), arguments.end());
   CommandResult result;
   result.exit_code = run(argv, &result.out);
   result.err = bytes_of(err);
   return result;
+}
+
+}  // namespace
+
+CommandResult quadrille(const std::vector<std::string>& arguments) {
+  return run_command("", arguments);
+}
+
+CommandResult quadrille_on_full_disk(int blocks, const std::vector<std::string>& arguments) {
+  // Without the signal, which would end the command, writing fails.
+  return run_command("trap '' XFSZ; ulimit -f " + std::to_string(blocks) + "; ", arguments);
 }
 
 std::string sample(const std::string& name) {

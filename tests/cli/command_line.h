@@ -16,6 +16,10 @@ struct CommandResult {
 /// Runs `quadrille` with these arguments; neither of its outputs is a terminal.
 CommandResult quadrille(const std::vector<std::string>& arguments);
 
+/// The same where no file may grow above `blocks` times 512 bytes (RLIMIT_FSIZE): more is refused
+/// as on a full disk.
+CommandResult quadrille_on_full_disk(int blocks, const std::vector<std::string>& arguments);
+
 /// A file of samples/.
 std::string sample(const std::string& name);
 

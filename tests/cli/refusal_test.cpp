@@ -52,6 +52,20 @@ TEST(Refusal, OpaqueRegionOfATransparentPicture) {
   EXPECT_THAT(files_in(folder), IsEmpty());
 }
 
+TEST(Refusal, AFullDiskLeavesNothingBehind) {
+  const fs::path source = fresh_folder("full_disk_source") / "coast.quad";
+  expect_silent_success(quadrille(
+      {sample("formats/coast_progressive.jpg"), "-o", source.string(), "--quads", "200"}));
+  for (const char* name : {"a.tif", "a.png", "a.dzi"}) {
+    const fs::path folder = fresh_folder("full_disk");
+    const CommandResult result = quadrille_on_full_disk(
+        2, {"render", source.string(), "-o", (folder / name).string(), "--scale", "4"});
+    expect_refused(result, name);
+    EXPECT_THAT(result.err, HasSubstr("free space"));
+    EXPECT_THAT(files_in(folder), IsEmpty()) << name;
+  }
+}
+
 TEST(Refusal, MissingPicture) {
   const fs::path folder = fresh_folder("missing");
   expect_refused(quadrille({"nowhere.png", "-o", (folder / "a.svg").string()}), "nowhere.png");

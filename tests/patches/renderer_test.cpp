@@ -166,6 +166,51 @@ TEST(Renderer, RegionsThreadsAndFramesGiveTheSameBytes) {
   }
 }
 
+/// Opaque, with tears among the patches.
+VectorImage torn_image(std::uint32_t seed) {
+  PatchMesh patches = random_patches(6, 5, 37, 29, seed, {0.25, 0.8});
+  QuadMesh& mesh = patches.mesh;
+  for (int e = 0; e < mesh.edge_count(); e += 3) {
+    if (!mesh.is_border(e)) mesh.edge_flags[e] |= kTearEdge;
+  }
+  set_random_colors(patches, seed + 100);
+  return single_layer(std::move(patches), 37, 29);
+}
+
+// Opaque 8-bit pixels of four channels are drawn another way than all others, and large regions
+// are written another way than small ones.
+TEST(Renderer, ChannelsAndSizeDoNotChangeOpaquePixels) {
+  const VectorImage image = torn_image(12);
+  ASSERT_TRUE(image.opaque());
+  Renderer renderer(image);
+  Random random(3);
+  for (const double scale : {1.0, 5.0, 33.0}) {
+    RenderOptions options;
+    options.scale = scale;
+    const auto [width, height] = output_size(image, options);
+    const Bytes rgb = draw(renderer, image, options, {SampleType::uint8, 3});
+    for (int trial = 0; trial < 8; ++trial) {
+      PixelRegion r{0, 0, width, height};
+      if (trial > 0) {
+        r.x = random.integer(0, width - 1), r.y = random.integer(0, height - 1);
+        r.width = random.integer(1, width - r.x), r.height = random.integer(1, height - r.y);
+      }
+      options.region = r;
+      const Bytes rgba = draw(renderer, image, options);
+      long different = 0;
+      for (int y = 0; y < r.height; ++y) {
+        for (int x = 0; x < r.width; ++x) {
+          const std::uint8_t* const a = rgba.data.data() + y * rgba.row + 4 * x;
+          const std::uint8_t* const b = rgb.data.data() + (r.y + y) * rgb.row + 3 * (r.x + x);
+          different += !std::equal(a, a + 3, b) || a[3] != 255;
+        }
+      }
+      EXPECT_EQ(different, 0) << "scale " << scale << " region " << r.x << "," << r.y << ","
+                              << r.width << "," << r.height;
+    }
+  }
+}
+
 TEST(Renderer, InstructionSetsGiveTheSameBytes) {
   for (const bool opaque : {false, true}) {
     const VectorImage image = random_image(8, opaque);

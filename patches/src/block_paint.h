@@ -1,0 +1,17 @@
+#pragma once
+
+#include "block_plan.h"
+#include "pixel_packer.h"
+
+namespace quadrille {
+
+/// Paints those samples of the plan's blocks [begin, end) that lie in the window, of which
+/// `samples` holds the first. Up to 31 floats before and behind what is painted are read and
+/// written again. All instruction sets give the same bits.
+void paint_blocks(const BlockPlan& plan, bool opaque, const SampleWindow& window,
+                  const SamplePlanes& samples);
+
+/// The same of an opaque patch as the 8-bit pixels that a PixelPacker makes of the samples.
+void paint_blocks(const BlockPlan& plan, const SampleWindow& window, const PixelWords& pixels);
+
+}  // namespace quadrille
