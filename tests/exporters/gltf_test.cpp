@@ -44,7 +44,7 @@ std::filesystem::path write(const VectorImage& image, const GltfOptions& options
                             const RunContext& context = {}) {
   static int count = 0;
   const auto path = test::scratch_dir() / ("picture" + std::to_string(count++) + ".glb");
-  write_glb(image, path, options, context);
+  write_gltf(image, path, options, context);
   return path;
 }
 
@@ -233,7 +233,7 @@ TEST(Gltf, WritesTheSameBytesForAnyThreadCount) {
 
 ErrorCode failure(const VectorImage& image, const std::filesystem::path& path, double texels) {
   try {
-    write_glb(image, path, {.texels_per_pixel = texels});
+    write_gltf(image, path, {.texels_per_pixel = texels});
   } catch (const Error& error) {
     return error.code();
   }
