@@ -107,10 +107,11 @@ class Divider {
   }
 
   SurfaceDivisions run(const RunContext& context) {
+    const double inner = judge_.is_needed() ? kInnerTolerance : kTexturedTolerance;
     for (int e = 0; e < mesh_.edge_count(); ++e) {
       const bool is_contour = layer_.is_contour(mesh_.halfedge(e));
-      out_.edges[e] = segments_for_shape(layer_.edge_curve(e),
-                                         is_contour ? kContourTolerance : kInnerTolerance);
+      out_.edges[e] =
+          segments_for_shape(layer_.edge_curve(e), is_contour ? kContourTolerance : inner);
     }
     context.progress("surface", 0.2);
     if (judge_.is_needed()) divide_for_content(context);

@@ -9,10 +9,11 @@
 namespace quadrille {
 
 /// Largest distance in pixels between the curve of an edge and the segments that stand for it: on
-/// the outline and along tears, and elsewhere. There it can be coarser: with a planar texture the
-/// triangles show in a wire frame only.
+/// the outline and along tears, and elsewhere. There it can be coarser where a planar texture has
+/// the colours, since the triangles show in a wire frame only.
 inline constexpr double kContourTolerance = 0.05;
-inline constexpr double kInnerTolerance = 0.25;
+inline constexpr double kInnerTolerance = 0.125;
+inline constexpr double kTexturedTolerance = 0.5;
 /// Largest error of heights in pixels, but for that of the at most 16 parts per side of a patch.
 inline constexpr double kHeightTolerance = 0.25;
 /// Largest error of colours between vertices, of 1, likewise.

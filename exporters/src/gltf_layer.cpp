@@ -28,6 +28,7 @@ bool is_usable(const BicubicBezier<Eigen::Vector2d>& position, const BicubicBezi
 GltfLayer::GltfLayer(const Layer& layer) : layer_(layer) {
   find_patches();
   color_sheets();
+  widen_sheets();
   join_corners();
 }
 
@@ -84,6 +85,33 @@ void GltfLayer::color_sheets() {
       sheet_[queue[at]] = sheet;
       sheet_count_ = std::max(sheet_count_, sheet + 1);
     }
+  }
+}
+
+/// What lies behind a side of a tear goes on its sheet, too, so that the two sides' paint is some
+/// patches apart on each sheet: filtering over a few texels then mixes nothing.
+void GltfLayer::widen_sheets() {
+  constexpr int kRings = 2;
+  std::vector<int> ring;
+  std::vector<char> is_reached(mesh().quad_count(), 0);
+  for (int q = 0; q < mesh().quad_count(); ++q) {
+    if (torn_from(q).empty()) continue;
+    is_reached[q] = 1;
+    if (is_drawn(q)) ring.push_back(q);
+  }
+  for (int k = 0; k < kRings; ++k) {
+    std::vector<int> next;
+    for (const int q : ring) {
+      for (int h = 4 * q; h < 4 * q + 4; ++h) {
+        const int twin = mesh().twin(h);
+        const int other = twin < 0 ? q : QuadMesh::quad_of(twin);
+        if (is_reached[other] || !is_drawn(other)) continue;
+        is_reached[other] = 1;
+        sheet_[other] = sheet_[q];
+        next.push_back(other);
+      }
+    }
+    ring = std::move(next);
   }
 }
 

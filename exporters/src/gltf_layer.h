@@ -45,6 +45,7 @@ class GltfLayer {
  private:
   void find_patches();
   void color_sheets();
+  void widen_sheets();
   void join_corners();
   std::vector<int> torn_from(int quad) const;
 

@@ -42,10 +42,10 @@ inline constexpr int kMaxTextureSide = 8192;
 SheetTexture sheet_texture(const VectorImage& image, const GltfLayer& layer, int sheet,
                            double texels_per_pixel, const RunContext& context);
 
-/// Replaces the channels [first, first + count) of every texel that is not known by the mean of
-/// known texels in its surroundings; `known` has one entry per texel. Does nothing when none is
-/// known.
-void fill_unknown(Texture& texture, int first, int count, const std::vector<std::uint8_t>& known);
+/// Replaces the channels [first, first + count) of every texel that is not known: within four
+/// texels of known ones by what is next to them, farther off by the mean of known texels in its
+/// surroundings. `known` has one entry per texel. Does nothing when none is known.
+void fill_unknown(Texture& texture, int first, int count, std::vector<std::uint8_t> known);
 
 /// The texture as a file of the format; with alpha, PNG instead of JPEG. Throws Error{io_failure},
 /// and Error{cancelled} when the context asks to stop.
