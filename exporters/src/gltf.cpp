@@ -240,8 +240,8 @@ void write_gltf(const VectorImage& image, const std::filesystem::path& path,
                 "nothing of the picture can be seen, which glTF cannot hold; add patches that are "
                 "not transparent");
   }
-  writer.write(path);
   context.progress("glTF", 1);
+  writer.write(path);
 }
 
 }  // namespace quadrille

@@ -46,7 +46,7 @@ Layer only(const Layer& layer, const std::vector<char>& is_shown) {
   return rest;
 }
 
-/// The same layer with every shown colour changed, its last wedge (nothing) but for.
+/// The same layer with every colour changed but that of nothing, its last wedge if it has one.
 template <class Change>
 Layer repainted(Layer layer, bool has_nothing, const Change& change) {
   auto& wedges = layer.patches.wedges;
@@ -203,6 +203,7 @@ SheetTexture sheet_texture(const VectorImage& image, const GltfLayer& layer, int
   if (result.alpha_mode == AlphaMode::opaque) {
     drop_alpha(texture);
     fill_unknown(texture, 0, 3, known);
+    sharpen_for_filtering(texture);
     return result;
   }
   fill_unknown(texture, 3, 1, known);
@@ -210,6 +211,7 @@ SheetTexture sheet_texture(const VectorImage& image, const GltfLayer& layer, int
     if (texture.data[4 * i + 3] == 0) known[i] = 0;
   }
   fill_unknown(texture, 0, 3, known);
+  sharpen_for_filtering(texture);
   return result;
 }
 

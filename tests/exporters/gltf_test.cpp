@@ -111,8 +111,8 @@ TEST(Gltf, TheTextureIsTheRenderedPicture) {
   EXPECT_FALSE(texture.has_alpha());
   ASSERT_EQ(texture.width, 144);
   ASSERT_EQ(texture.height, 99);
-  // Both are rounded to 8 bits, one of them from single precision.
-  EXPECT_LE(compare(texture, render(image, {.scale = 3})).max_error, 1);
+  // But for what is sharpened, and rounding to 8 bits.
+  EXPECT_LE(compare(texture, render(image, {.scale = 3})).mae, 1);
 }
 
 TEST(Gltf, TexturesStayWithinTheLimitOfGraphicsProcessors) {
