@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common_options.h"
+#include "gltf_options.h"
 
 namespace quadrille::cli {
 namespace {
@@ -52,6 +53,7 @@ void declare_export_options(CLI::App& parser, ExportOptions& options) {
                   "pixels of the picture per inch of the page, for .pdf, .ps and .eps")
       ->check(CLI::Range(1.0, 10000.0))
       ->capture_default_str();
+  declare_gltf_options(parser, options.gltf);
   parser.parse_complete_callback([&options] {
     if (options.svg.level != SvgLevel::inkscape || options.svg.size_limit == 0) return;
     throw CLI::ValidationError("--svg-size-limit",

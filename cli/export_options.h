@@ -6,8 +6,8 @@
 
 namespace quadrille::cli {
 
-/// What outputs of any format are written with: --scale, --lossless, --svg-level, --svg-size-limit
-/// and --dpi. A size limit at the level inkscape is a wrong command line.
+/// What outputs of any format are written with: --scale, --lossless, --svg-level, --svg-size-limit,
+/// --dpi and those of gltf_options.h. A size limit at the level inkscape is a wrong command line.
 void declare_export_options(CLI::App& parser, ExportOptions& options);
 
 }  // namespace quadrille::cli

@@ -31,6 +31,13 @@ void postscript(const VectorImage& image, const std::filesystem::path& path,
 }
 #endif
 
+#ifdef QUADRILLE_HAS_GLTF
+void gltf(const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
+          const RunContext& context) {
+  write_gltf(image, path, options.gltf, context);
+}
+#endif
+
 const Format kFormats[] = {
     {".quad",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
@@ -52,9 +59,8 @@ const Format kFormats[] = {
     {".eps", postscript},
 #endif
 #ifdef QUADRILLE_HAS_GLTF
-    {".glb",
-     [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
-        const RunContext& context) { write_glb(image, path, options.gltf, context); }},
+    {".glb", gltf},
+    {".gltf", gltf},
 #endif
 #ifdef QUADRILLE_HAS_VTK
     {".vtu",

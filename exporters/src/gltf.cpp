@@ -1,179 +1,247 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "gltf_tessellation.h"
+#include "gltf_buffers.h"
+#include "gltf_control.h"
+#include "gltf_file.h"
+#include "gltf_layer.h"
+#include "gltf_surface.h"
 #include "gltf_texture.h"
-#include "quadrille/atomic_file.h"
+#include "patch_opacity.h"
 #include "quadrille/error.h"
 #include "quadrille/export.h"
 
 namespace quadrille {
 namespace {
 
-/// Appends the elements to the only buffer, aligned to 4 bytes; returns the new view's index.
-template <class T>
-int add_view(tinygltf::Model& model, const std::vector<T>& elements, int target) {
-  std::vector<unsigned char>& buffer = model.buffers.front().data;
-  buffer.resize((buffer.size() + 3) / 4 * 4);
-  tinygltf::BufferView view;
-  view.buffer = 0;
-  view.byteOffset = buffer.size();
-  view.byteLength = elements.size() * sizeof(T);
-  view.target = target;
-  buffer.resize(buffer.size() + view.byteLength);
-  std::memcpy(buffer.data() + view.byteOffset, elements.data(), view.byteLength);
-  model.bufferViews.push_back(view);
-  return static_cast<int>(model.bufferViews.size()) - 1;
+using tinygltf::Value;
+
+void check(const VectorImage& image, const GltfOptions& options) {
+  const auto reject = [](const std::string& message) {
+    throw Error(ErrorCode::invalid_argument, message);
+  };
+  if (!(options.texels_per_pixel > 0) || !std::isfinite(options.texels_per_pixel)) {
+    reject("texels per pixel must be positive, not " + std::to_string(options.texels_per_pixel) +
+           "; 2 suits most pictures");
+  }
+  if (options.texture_quality < 1 || options.texture_quality > 100) {
+    reject("a texture quality of " + std::to_string(options.texture_quality) +
+           " is out of range; use 1 to 100");
+  }
+  if (!(std::abs(options.relief) <= 1e6)) {
+    reject("a relief of " + std::to_string(options.relief) +
+           " pixels is out of range; use -1000000 to 1000000");
+  }
+  if (image.patch_count() == 0) {
+    reject("the picture has no patches, which glTF cannot hold; add a layer with patches");
+  }
 }
 
-template <std::size_t N>
-int add_vertices(tinygltf::Model& model, const std::vector<std::array<float, N>>& values) {
-  tinygltf::Accessor accessor;
-  accessor.bufferView = add_view(model, values, TINYGLTF_TARGET_ARRAY_BUFFER);
-  accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-  accessor.count = values.size();
-  accessor.type = N == 2 ? TINYGLTF_TYPE_VEC2 : TINYGLTF_TYPE_VEC3;
-  accessor.minValues.assign(N, std::numeric_limits<double>::infinity());
-  accessor.maxValues.assign(N, -std::numeric_limits<double>::infinity());
-  for (const auto& value : values) {
-    for (std::size_t c = 0; c < N; ++c) {
-      accessor.minValues[c] = std::min<double>(accessor.minValues[c], value[c]);
-      accessor.maxValues[c] = std::max<double>(accessor.maxValues[c], value[c]);
+/// Part of a larger progress.
+RunContext share(const RunContext& context, double from, double to) {
+  RunContext part;
+  part.threads = context.threads;
+  part.on_progress = [&context, from, to](const std::string&, double fraction) {
+    context.progress("glTF", from + (to - from) * fraction);
+    return true;
+  };
+  return part;
+}
+
+/// A file in the making.
+class GltfWriter {
+ public:
+  GltfWriter(const VectorImage& image, const GltfOptions& options)
+      : image_(image), options_(options), buffers_(model_, options.compression) {
+    model_.asset.version = "2.0";
+    model_.asset.generator = "Quadrille";
+    model_.asset.extras = Value(Value::Object{{"unit", Value(std::string("pixel"))},
+                                              {"width", Value(image.width)},
+                                              {"height", Value(image.height)}});
+    model_.scenes.emplace_back();
+    model_.defaultScene = 0;
+    use("FB_ngon_encoding", false);
+    if (!options.lit) use("KHR_materials_unlit", false);
+    if (options.compression != GltfCompression::none) use("KHR_mesh_quantization", true);
+    if (options.compression == GltfCompression::meshopt) use("EXT_meshopt_compression", true);
+    if (options.colors == GltfColors::vertex) return;
+    if (options.texture_format == GltfTextureFormat::webp) use("EXT_texture_webp", true);
+    tinygltf::Sampler sampler;
+    sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+    sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    model_.samplers.push_back(sampler);
+  }
+
+  /// A mesh and its node, if anything of the layer can be seen. Layers are stacked a unit and the
+  /// relief apart, because surfaces of equal depth would flicker.
+  void add_layer(const Layer& given, const RunContext& context) {
+    const GltfLayer layer(given);
+    if (layer.is_empty()) return;
+    const SurfaceContent content{options_.colors == GltfColors::vertex, options_.lit,
+                                 options_.relief};
+    const std::vector<SurfacePart> parts =
+        make_surface(layer, image_.height, content, share(context, 0, 0.3));
+    const PositionGrid grid = position_grid(parts);
+    tinygltf::Mesh mesh;
+    mesh.name = given.name;
+    mesh.extras =
+        Value(Value::Object{{"quadrille_document", Value(control_document(image_, given))}});
+    if (content.has_colors) {
+      mesh.primitives.push_back(colored_primitive(given, joined(parts), grid));
+    } else {
+      for (int sheet = 0; sheet < layer.sheet_count(); ++sheet) {
+        const RunContext part = share(context, 0.3 + 0.7 * sheet / layer.sheet_count(),
+                                      0.3 + 0.7 * (sheet + 1) / layer.sheet_count());
+        mesh.primitives.push_back(textured_primitive(layer, sheet, parts[sheet], grid, part));
+      }
     }
-  }
-  model.accessors.push_back(std::move(accessor));
-  return static_cast<int>(model.accessors.size()) - 1;
-}
-
-int add_indices(tinygltf::Model& model, const TriangleMesh& triangles) {
-  tinygltf::Accessor accessor;
-  // 65535 is the value that restarts a strip, so the largest 16-bit index is 65534.
-  if (triangles.positions.size() <= 65535) {
-    const std::vector<std::uint16_t> narrow(triangles.indices.begin(), triangles.indices.end());
-    accessor.bufferView = add_view(model, narrow, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
-  } else {
-    accessor.bufferView = add_view(model, triangles.indices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-  }
-  accessor.count = triangles.indices.size();
-  accessor.type = TINYGLTF_TYPE_SCALAR;
-  model.accessors.push_back(std::move(accessor));
-  return static_cast<int>(model.accessors.size()) - 1;
-}
-
-int add_material(tinygltf::Model& model, const Texture& texture) {
-  tinygltf::Image picture;
-  picture.mimeType = "image/png";
-  picture.bufferView = add_view(model, encode_png(texture), 0);
-  model.images.push_back(std::move(picture));
-
-  tinygltf::Texture reference;
-  reference.source = static_cast<int>(model.images.size()) - 1;
-  reference.sampler = 0;
-  model.textures.push_back(std::move(reference));
-
-  tinygltf::Material material;
-  material.pbrMetallicRoughness.baseColorTexture.index =
-      static_cast<int>(model.textures.size()) - 1;
-  material.pbrMetallicRoughness.metallicFactor = 0;
-  material.alphaMode = texture.channels == 4 ? "BLEND" : "OPAQUE";
-  material.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object());
-  model.materials.push_back(std::move(material));
-  return static_cast<int>(model.materials.size()) - 1;
-}
-
-/// A mesh and its node. Layers are stacked one unit apart, because surfaces of equal depth would
-/// flicker.
-void add_layer(tinygltf::Model& model, const VectorImage& image, const Layer& layer, int depth,
-               const GltfOptions& options, const RunContext& context) {
-  const TriangleMesh triangles = tessellate(layer, image.height);
-  std::vector<std::array<float, 3>> positions;
-  std::vector<std::array<float, 2>> texture_coordinates;
-  positions.reserve(triangles.positions.size());
-  texture_coordinates.reserve(triangles.positions.size());
-  for (const auto& p : triangles.positions) {
-    positions.push_back({p[0], p[1], 0.0f});
-    texture_coordinates.push_back({static_cast<float>(p[0] / image.width),
-                                   static_cast<float>((image.height - p[1]) / image.height)});
+    model_.meshes.push_back(std::move(mesh));
+    add_node(given.name, grid);
   }
 
-  tinygltf::Primitive primitive;
-  primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.attributes["POSITION"] = add_vertices(model, positions);
-  primitive.attributes["TEXCOORD_0"] = add_vertices(model, texture_coordinates);
-  primitive.indices = add_indices(model, triangles);
-  primitive.material =
-      add_material(model, layer_texture(image, layer, options.texels_per_pixel, context));
+  bool is_empty() const { return model_.meshes.empty(); }
+  void write(const std::filesystem::path& path) {
+    write_gltf_files(model_, buffers_, textures_, path);
+  }
 
-  tinygltf::Mesh mesh;
-  mesh.name = layer.name;
-  mesh.primitives.push_back(std::move(primitive));
-  model.meshes.push_back(std::move(mesh));
+ private:
+  void use(const std::string& extension, bool is_required) {
+    model_.extensionsUsed.push_back(extension);
+    if (is_required) model_.extensionsRequired.push_back(extension);
+  }
 
-  tinygltf::Node node;
-  node.name = layer.name;
-  node.mesh = static_cast<int>(model.meshes.size()) - 1;
-  if (depth > 0) node.translation = {0, 0, double(depth)};
-  model.nodes.push_back(std::move(node));
-  model.scenes.front().nodes.push_back(static_cast<int>(model.nodes.size()) - 1);
-}
+  /// Vertex colours need no sheets.
+  static SurfacePart joined(const std::vector<SurfacePart>& parts) {
+    SurfacePart whole;
+    for (const SurfacePart& part : parts) {
+      const auto first = static_cast<std::uint32_t>(whole.positions.size());
+      const auto append = [](auto& to, const auto& from) {
+        to.insert(to.end(), from.begin(), from.end());
+      };
+      append(whole.positions, part.positions);
+      append(whole.normals, part.normals);
+      append(whole.colors, part.colors);
+      for (const std::uint32_t index : part.indices) whole.indices.push_back(first + index);
+    }
+    return whole;
+  }
 
-tinygltf::Model empty_model(const VectorImage& image) {
-  tinygltf::Model model;
-  model.asset.version = "2.0";
-  model.asset.generator = "Quadrille";
-  model.asset.extras = tinygltf::Value(tinygltf::Value::Object{
-      {"unit", tinygltf::Value(std::string("pixel"))},
-      {"width", tinygltf::Value(image.width)},
-      {"height", tinygltf::Value(image.height)},
-  });
-  model.extensionsUsed = {"KHR_materials_unlit"};
-  model.buffers.emplace_back();
-  model.scenes.emplace_back();
-  model.defaultScene = 0;
-  tinygltf::Sampler sampler;
-  sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
-  sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
-  sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-  sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-  model.samplers.push_back(sampler);
-  return model;
-}
+  tinygltf::Primitive bare_primitive(const SurfacePart& part, const PositionGrid& grid) {
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.extensions["FB_ngon_encoding"] = Value(Value::Object());
+    primitive.attributes["POSITION"] = buffers_.add_positions(part.positions, grid);
+    if (!part.normals.empty()) primitive.attributes["NORMAL"] = buffers_.add_normals(part.normals);
+    primitive.indices = buffers_.add_indices(part.indices, part.positions.size());
+    return primitive;
+  }
+
+  tinygltf::Primitive colored_primitive(const Layer& layer, const SurfacePart& part,
+                                        const PositionGrid& grid) {
+    tinygltf::Primitive primitive = bare_primitive(part, grid);
+    primitive.attributes["COLOR_0"] = buffers_.add_colors(part.colors);
+    constexpr double kNearlyOpaque = 1.0 / 255;
+    const auto translucent =
+        patches_with(patch_opacities(layer.patches, kNearlyOpaque), PatchOpacity::translucent);
+    primitive.material = add_material(translucent.empty() ? AlphaMode::opaque : AlphaMode::blend);
+    return primitive;
+  }
+
+  tinygltf::Primitive textured_primitive(const GltfLayer& layer, int sheet, const SurfacePart& part,
+                                         const PositionGrid& grid, const RunContext& context) {
+    const SheetTexture drawn =
+        sheet_texture(image_, layer, sheet, options_.texels_per_pixel, share(context, 0, 0.4));
+    textures_.push_back(encode(drawn.texture, options_, share(context, 0.4, 1)));
+    tinygltf::Primitive primitive = bare_primitive(part, grid);
+    const double scale_x = drawn.picture_width / image_.width,
+                 scale_y = drawn.picture_height / image_.height;
+    std::vector<std::array<float, 2>> coordinates;
+    coordinates.reserve(part.positions.size());
+    for (const auto& p : part.positions) {
+      const double x = p[0] * scale_x - drawn.region.x;
+      const double y = (image_.height - p[1]) * scale_y - drawn.region.y;
+      coordinates.push_back({static_cast<float>(x / drawn.region.width),
+                             static_cast<float>(y / drawn.region.height)});
+    }
+    primitive.attributes["TEXCOORD_0"] = buffers_.add_texture_coordinates(coordinates);
+    primitive.material = add_material(drawn.alpha_mode, add_texture());
+    return primitive;
+  }
+
+  /// For the picture that was encoded last.
+  int add_texture() {
+    tinygltf::Texture texture;
+    const int source = static_cast<int>(textures_.size()) - 1;
+    if (options_.texture_format == GltfTextureFormat::webp) {
+      texture.extensions["EXT_texture_webp"] = Value(Value::Object{{"source", Value(source)}});
+    } else {
+      texture.source = source;
+    }
+    texture.sampler = 0;
+    model_.textures.push_back(std::move(texture));
+    return static_cast<int>(model_.textures.size()) - 1;
+  }
+
+  int add_material(AlphaMode alpha_mode, int texture = -1) {
+    tinygltf::Material material;
+    material.pbrMetallicRoughness.baseColorTexture.index = texture;
+    material.pbrMetallicRoughness.metallicFactor = 0;
+    material.pbrMetallicRoughness.roughnessFactor = 1;
+    constexpr const char* kModes[] = {"OPAQUE", "MASK", "BLEND"};
+    material.alphaMode = kModes[static_cast<int>(alpha_mode)];
+    material.doubleSided = true;
+    if (!options_.lit) material.extensions["KHR_materials_unlit"] = Value(Value::Object());
+    model_.materials.push_back(std::move(material));
+    return static_cast<int>(model_.materials.size()) - 1;
+  }
+
+  void add_node(const std::string& name, const PositionGrid& grid) {
+    tinygltf::Node node;
+    node.name = name;
+    node.mesh = static_cast<int>(model_.meshes.size()) - 1;
+    std::array<double, 3> at = {0, 0, 0};
+    if (options_.compression != GltfCompression::none) {
+      node.scale.assign(3, grid.scale);
+      at = grid.offset;
+    }
+    at[2] += node.mesh * (1 + std::abs(options_.relief));
+    if (at != std::array<double, 3>{}) node.translation.assign(at.begin(), at.end());
+    model_.nodes.push_back(std::move(node));
+    model_.scenes.front().nodes.push_back(static_cast<int>(model_.nodes.size()) - 1);
+  }
+
+  const VectorImage& image_;
+  const GltfOptions& options_;
+  tinygltf::Model model_;
+  GltfBuffers buffers_;
+  std::vector<EncodedTexture> textures_;
+};
 
 }  // namespace
 
-void write_glb(const VectorImage& image, const std::filesystem::path& path,
-               const GltfOptions& options, const RunContext& context) {
-  if (!(options.texels_per_pixel > 0) || !std::isfinite(options.texels_per_pixel)) {
-    throw Error(ErrorCode::invalid_argument, "texels per pixel must be positive, not " +
-                                                 std::to_string(options.texels_per_pixel) +
-                                                 "; 2 suits most pictures");
+void write_gltf(const VectorImage& image, const std::filesystem::path& path,
+                const GltfOptions& options, const RunContext& context) {
+  check(image, options);
+  GltfWriter writer(image, options);
+  const double count = static_cast<double>(image.layers.size());
+  for (std::size_t k = 0; k < image.layers.size(); ++k) {
+    writer.add_layer(image.layers[k], share(context, k / count, (k + 1) / count));
   }
-  if (image.patch_count() == 0) {
+  if (writer.is_empty()) {
     throw Error(ErrorCode::invalid_argument,
-                "the picture has no patches, which glTF cannot hold; add a layer with patches");
+                "nothing of the picture can be seen, which glTF cannot hold; add patches that are "
+                "not transparent");
   }
-  tinygltf::Model model = empty_model(image);
-  int depth = 0;
-  for (const Layer& layer : image.layers) {
-    if (layer.patches.patch_count() == 0) continue;
-    add_layer(model, image, layer, depth++, options, context);
-  }
-  write_stream_atomically(path, [&](std::ostream& file) {
-    if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, file, false, true)) {
-      file.setstate(std::ios::failbit);
-    }
-  });
+  context.progress("glTF", 1);
+  writer.write(path);
 }
 
 }  // namespace quadrille

@@ -1,9 +1,12 @@
 // What the options of one format do to its files.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "command_line.h"
+#include "quadrille/export.h"
 
 namespace quadrille::test {
 namespace {
@@ -52,6 +55,40 @@ TEST_F(ExportOption, DpiSetsThePageSize) {
     const auto box = std::string("%%BoundingBox: 0 0 ") + width + ' ';
     EXPECT_NE(bytes_of(page).find(box), std::string::npos) << dpi;
   }
+}
+
+TEST_F(ExportOption, GltfFilesFollowTheirOptions) {
+  const auto endings = export_endings();
+  if (std::find(endings.begin(), endings.end(), ".gltf") == endings.end()) {
+    GTEST_SKIP() << "built without glTF";
+  }
+  const fs::path folder = fresh_folder("gltf");
+  const fs::path file = folder / "a.gltf";
+  const auto text_with = [&](const std::vector<std::string>& options) {
+    expect_silent_success(quadrille(join({"export", document(), "-o", file.string()}, options)));
+    return bytes_of(file);
+  };
+  using testing::HasSubstr;
+  using testing::Not;
+  EXPECT_THAT(text_with({"--texture-format", "jpeg", "--texture-ppi", "0.5"}),
+              HasSubstr("a-texture-0.jpg"));
+  EXPECT_THAT(text_with({"--gltf-colors", "vertex"}),
+              testing::AllOf(HasSubstr("COLOR_0"), Not(HasSubstr("images"))));
+  EXPECT_THAT(text_with({"--gltf-lit"}),
+              testing::AllOf(HasSubstr("NORMAL"), Not(HasSubstr("KHR_materials_unlit"))));
+  EXPECT_THAT(text_with({"--gltf-compress", "meshopt", "--gltf-relief", "-9"}),
+              HasSubstr("EXT_meshopt_compression"));
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--texture-format", "gif"},
+                                                {"--texture-ppi", "0"},
+                                                {"--texture-quality", "101"},
+                                                {"--gltf-relief", "inf"},
+                                                {"--gltf-compress", "zip"}}) {
+    const auto result =
+        quadrille(join({"export", document(), "-o", (folder / "b.gltf").string()}, wrong));
+    EXPECT_EQ(result.exit_code, 2) << wrong[0];
+    EXPECT_TRUE(is_one_complaint(result.err)) << result.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "b.gltf"));
 }
 
 }  // namespace

@@ -1,73 +1,66 @@
 #pragma once
 
-#include <cstring>
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "quadrille/export.h"
+#include "quadrille/raster.h"
 
 namespace quadrille::test {
 
-/// A binary glTF file taken apart by the letter of the specification (section 4.4).
-class GlbFile {
+/// A glTF file taken apart by the letter of the specification: a binary one (section 4.4), or a
+/// .gltf with the files beside it. Compressed buffer views (EXT_meshopt_compression) are decoded by
+/// meshoptimizer.
+class GltfFile {
  public:
-  explicit GlbFile(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    bytes = {std::istreambuf_iterator<char>(file), {}};
-    if (bytes.substr(0, 4) != "glTF" || word(4) != 2 || word(8) != bytes.size()) {
-      throw std::runtime_error("bad GLB header");
-    }
-    const std::size_t json_size = word(12);
-    if (word(16) != 0x4E4F534A) throw std::runtime_error("no JSON chunk");
-    gltf = nlohmann::json::parse(bytes.substr(20, json_size));
-    const std::size_t binary_at = 20 + json_size;
-    if (word(binary_at + 4) != 0x004E4942) throw std::runtime_error("no binary chunk");
-    binary = bytes.substr(binary_at + 8, word(binary_at));
+  explicit GltfFile(const std::filesystem::path& path);
+
+  /// The elements of an accessor, normalised ones divided by their largest value.
+  std::vector<std::vector<double>> values(int accessor) const;
+  std::vector<std::uint32_t> indices(int accessor) const;
+  const nlohmann::json& primitive(int mesh, int index = 0) const {
+    return gltf["meshes"][mesh]["primitives"][index];
   }
+  std::size_t primitive_count(int mesh) const { return gltf["meshes"][mesh]["primitives"].size(); }
+  /// An attribute of a primitive of mesh 0; positions as the node places them.
+  std::vector<std::vector<double>> attribute(int primitive, const std::string& name) const;
+  std::vector<std::uint32_t> triangles(int primitive) const;
+  /// The bytes of a picture's file, and the picture.
+  std::string image_bytes(int index) const;
+  Raster image(int index) const;
+  std::string view(int index) const;
 
-  std::string view(int index) const {
-    const auto& v = gltf["bufferViews"][index];
-    return binary.substr(v.value("byteOffset", 0), v["byteLength"]);
-  }
-
-  std::vector<std::vector<float>> vertices(int accessor) const {
-    const auto& a = gltf["accessors"][accessor];
-    const int components = a["type"] == "VEC3" ? 3 : 2;
-    const std::string data = view(a["bufferView"]);
-    std::vector<std::vector<float>> result(a["count"], std::vector<float>(components));
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      std::memcpy(result[i].data(), data.data() + 4 * components * i, 4 * components);
-    }
-    return result;
-  }
-
-  std::vector<std::uint32_t> indices(int accessor) const {
-    const auto& a = gltf["accessors"][accessor];
-    const std::string data = view(a["bufferView"]);
-    const std::size_t size = a["componentType"] == 5123 ? 2 : 4;
-    std::vector<std::uint32_t> result(a["count"], 0);
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      std::memcpy(&result[i], data.data() + size * i, size);
-    }
-    return result;
-  }
-
-  const nlohmann::json& primitive(int mesh) const { return gltf["meshes"][mesh]["primitives"][0]; }
-
-  std::string bytes, binary;
+  std::filesystem::path path;
+  std::string bytes;  ///< of the file itself
   nlohmann::json gltf;
 
  private:
-  std::uint32_t word(std::size_t at) const {
-    std::uint32_t value = 0;
-    if (at + 4 > bytes.size()) throw std::runtime_error("truncated GLB");
-    std::memcpy(&value, bytes.data() + at, 4);
-    return value;
-  }
+  std::uint32_t word(std::size_t at) const;
+  std::string unpacked(const nlohmann::json& view) const;
+
+  std::string binary_;
 };
+
+/// Writes the picture to a new file of the scratch folder.
+GltfFile written(const VectorImage& image, const GltfOptions& options = {},
+                 const RunContext& context = {}, const std::string& ending = ".glb");
+
+/// A disc of random colours over a background of others, 40 x 32 pixels, torn along the circle, its
+/// edges smoothly curved.
+VectorImage torn_disc(bool is_opaque);
+
+/// The polygons of FB_ngon_encoding: consecutive triangles that start with the same vertex, as
+/// rings of vertices.
+std::vector<std::vector<std::uint32_t>> polygons(const std::vector<std::uint32_t>& triangles);
+
+/// The sides of triangles that no other triangle runs the other way, over all primitives of mesh 0,
+/// vertices of equal position taken for one: the border of the surface, as pairs of positions.
+/// Sides that two triangles run the same way count in `repeated`.
+using Place = std::vector<double>;
+std::vector<std::pair<Place, Place>> open_sides(const GltfFile& file, int* repeated = nullptr);
 
 }  // namespace quadrille::test

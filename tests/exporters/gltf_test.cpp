@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +11,6 @@
 #include "exporters/gltf_file.h"
 #include "quadrille/error.h"
 #include "quadrille/export.h"
-#include "quadrille/image_file.h"
 #include "quadrille/metrics.h"
 #include "quadrille/render.h"
 #include "support/programs.h"
@@ -23,7 +20,8 @@ namespace quadrille {
 namespace {
 
 using nlohmann::json;
-using test::GlbFile;
+using test::GltfFile;
+using test::written;
 
 VectorImage random_picture(int columns, int rows, double width, double height,
                            std::uint32_t seed = 1, double curvature = 0.6, bool opaque = true) {
@@ -40,20 +38,6 @@ VectorImage left_half(const Color& premultiplied) {
   return testing::single_layer(std::move(patches), 15, 10);
 }
 
-std::filesystem::path write(const VectorImage& image, const GltfOptions& options = {},
-                            const RunContext& context = {}) {
-  static int count = 0;
-  const auto path = test::scratch_dir() / ("picture" + std::to_string(count++) + ".glb");
-  write_glb(image, path, options, context);
-  return path;
-}
-
-Raster texture_of(const GlbFile& file, int index = 0) {
-  const auto path = test::scratch_dir() / "texture.png";
-  std::ofstream(path, std::ios::binary) << file.view(file.gltf["images"][index]["bufferView"]);
-  return load_image(path);
-}
-
 /// The validator comes from npm; a developer may go without it, a continuous build may not.
 std::string validator_script() {
   const std::filesystem::path folder = QUADRILLE_SOURCE_DIR "/tests/programs";
@@ -63,31 +47,23 @@ std::string validator_script() {
 
 /// The triangles tile the rectangle: all face +z, their areas add up, and each edge is used once in
 /// each direction, or once in all and lies on the border.
-void expect_tiling(const GlbFile& file, double width, double height) {
-  const json& primitive = file.primitive(0);
-  const auto positions = file.vertices(primitive["attributes"]["POSITION"]);
-  const auto indices = file.indices(primitive["indices"]);
+void expect_tiling(const GltfFile& file, double width, double height) {
+  const auto positions = file.attribute(0, "POSITION");
+  const auto indices = file.triangles(0);
   double sum = 0;
   int turned = 0, repeated = 0, open = 0;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (std::size_t i = 0; i < indices.size(); i += 3) {
     const auto &a = positions[indices[i]], &b = positions[indices[i + 1]],
                &c = positions[indices[i + 2]];
-    const double area = ((double(b[0]) - a[0]) * (double(c[1]) - a[1]) -
-                         (double(b[1]) - a[1]) * (double(c[0]) - a[0])) /
-                        2;
+    const double area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
     turned += area <= 0;
     sum += area;
-    for (int k = 0; k < 3; ++k) {
-      repeated += !edges.emplace(indices[i + k], indices[i + (k + 1) % 3]).second;
-    }
   }
-  for (const auto& [from, to] : edges) {
-    const auto &a = positions[from], &b = positions[to];
+  for (const auto& [a, b] : test::open_sides(file, &repeated)) {
     const bool on_border = (a[0] == 0 && b[0] == 0) || (a[1] == 0 && b[1] == 0) ||
                            (a[0] == float(width) && b[0] == float(width)) ||
                            (a[1] == float(height) && b[1] == float(height));
-    open += !on_border && !edges.contains({to, from});
+    open += !on_border;
   }
   EXPECT_EQ(turned, 0);
   EXPECT_EQ(repeated, 0);
@@ -101,26 +77,26 @@ TEST(Gltf, TrianglesTileThePictureWhateverTheCurvature) {
       for (const double size : {8.0, 64.0, 1024.0}) {
         SCOPED_TRACE(::testing::Message() << curvature << ", " << seed << ", " << size);
         const VectorImage image = random_picture(4, 3, size, size / 2, seed, curvature);
-        expect_tiling(GlbFile(write(image, {.texels_per_pixel = 8 / size})), size, size / 2);
+        expect_tiling(written(image, {.texels_per_pixel = 8 / size}), size, size / 2);
       }
     }
   }
 }
 
 TEST(Gltf, StraightPatchesBecomeTwoTrianglesEach) {
-  const GlbFile file(write(random_picture(5, 4, 50, 40, 1, 0)));
-  EXPECT_EQ(file.indices(file.primitive(0)["indices"]).size(), 3 * 2 * 20);
-  EXPECT_EQ(file.vertices(file.primitive(0)["attributes"]["POSITION"]).size(), 6 * 5);
+  const GltfFile file = written(random_picture(5, 4, 50, 40, 1, 0));
+  EXPECT_EQ(file.triangles(0).size(), 3 * 2 * 20);
+  EXPECT_EQ(file.attribute(0, "POSITION").size(), 6 * 5);
 }
 
 TEST(Gltf, BoundsAndTextureCoordinatesAreThePicture) {
-  const GlbFile file(write(random_picture(4, 3, 48, 33)));
-  const json& attributes = file.primitive(0)["attributes"];
-  const json& bounds = file.gltf["accessors"][attributes["POSITION"].get<int>()];
+  const GltfFile file = written(random_picture(4, 3, 48, 33));
+  const int accessor = file.primitive(0)["attributes"]["POSITION"];
+  const json& bounds = file.gltf["accessors"][accessor];
   EXPECT_EQ(bounds["min"], json({0.0, 0.0, 0.0}));
   EXPECT_EQ(bounds["max"], json({48.0, 33.0, 0.0}));
-  const auto positions = file.vertices(attributes["POSITION"]);
-  const auto coordinates = file.vertices(attributes["TEXCOORD_0"]);
+  const auto positions = file.attribute(0, "POSITION");
+  const auto coordinates = file.attribute(0, "TEXCOORD_0");
   ASSERT_EQ(positions.size(), coordinates.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     EXPECT_NEAR(coordinates[i][0], positions[i][0] / 48, 1e-6);
@@ -130,23 +106,24 @@ TEST(Gltf, BoundsAndTextureCoordinatesAreThePicture) {
 
 TEST(Gltf, TheTextureIsTheRenderedPicture) {
   const VectorImage image = random_picture(4, 3, 48, 33);
-  const GlbFile file(write(image, {.texels_per_pixel = 3}));
-  const Raster texture = texture_of(file);
+  const GltfFile file = written(image, {.texels_per_pixel = 3});
+  const Raster texture = file.image(0);
   EXPECT_FALSE(texture.has_alpha());
   ASSERT_EQ(texture.width, 144);
   ASSERT_EQ(texture.height, 99);
-  EXPECT_EQ(compare(texture, render(image, {.scale = 3})).max_error, 0);
+  // But for what is sharpened, and rounding to 8 bits.
+  EXPECT_LE(compare(texture, render(image, {.scale = 3})).mae, 1);
 }
 
 TEST(Gltf, TexturesStayWithinTheLimitOfGraphicsProcessors) {
-  const Raster texture = texture_of(GlbFile(write(random_picture(6, 1, 5000, 3))));
+  const Raster texture = written(random_picture(6, 1, 5000, 3)).image(0);
   EXPECT_EQ(texture.width, 8192);
   EXPECT_EQ(texture.height, 5);
 }
 
 TEST(Gltf, MaterialsAreUnlitAndSaySo) {
-  const GlbFile file(write(random_picture(1, 1, 6, 4)));
-  EXPECT_EQ(file.gltf["extensionsUsed"], json({"KHR_materials_unlit"}));
+  const GltfFile file = written(random_picture(1, 1, 6, 4));
+  EXPECT_EQ(file.gltf["extensionsUsed"], json({"FB_ngon_encoding", "KHR_materials_unlit"}));
   const json& material = file.gltf["materials"][0];
   EXPECT_TRUE(material["extensions"].contains("KHR_materials_unlit"));
   EXPECT_EQ(material.value("alphaMode", "OPAQUE"), "OPAQUE");
@@ -156,9 +133,9 @@ TEST(Gltf, MaterialsAreUnlitAndSaySo) {
 }
 
 TEST(Gltf, OpaquePaintGoesOnPastItsOutline) {
-  const GlbFile file(write(left_half(Color(1, 0.4f, 0, 1))));
+  const GltfFile file = written(left_half(Color(1, 0.4f, 0, 1)));
   EXPECT_EQ(file.gltf["materials"][0].value("alphaMode", "OPAQUE"), "OPAQUE");
-  const Raster texture = texture_of(file);
+  const Raster texture = file.image(0);
   ASSERT_FALSE(texture.has_alpha());
   for (std::size_t i = 0; i < texture.data.size(); ++i) {
     EXPECT_NEAR(texture.data[i], (std::array{1.0, 0.4, 0.0}[i % 3]), 1 / 255.0) << i;
@@ -166,9 +143,9 @@ TEST(Gltf, OpaquePaintGoesOnPastItsOutline) {
 }
 
 TEST(Gltf, TranslucentPaintKeepsItsAlphaUpToAndPastItsOutline) {
-  const GlbFile file(write(left_half(Color(0.5f, 0.2f, 0, 0.5f))));
+  const GltfFile file = written(left_half(Color(0.5f, 0.2f, 0, 0.5f)));
   EXPECT_EQ(file.gltf["materials"][0]["alphaMode"], "BLEND");
-  const Raster texture = texture_of(file);
+  const Raster texture = file.image(0);
   ASSERT_TRUE(texture.has_alpha());
   for (std::size_t i = 0; i < texture.data.size(); ++i) {
     EXPECT_NEAR(texture.data[i], (std::array{1.0, 0.4, 0.0, 0.5}[i % 4]), 2 / 255.0) << i;
@@ -176,11 +153,10 @@ TEST(Gltf, TranslucentPaintKeepsItsAlphaUpToAndPastItsOutline) {
 }
 
 TEST(Gltf, TransparentTexelsTakeTheColourOfTheirSurroundings) {
-  // Red whose alpha falls from 1 at the left to 0 at x = 8 and stays below 0 from there on.
+  // Red whose alpha falls from 1 at the left to 0 at x = 12 and stays below 0 from there on.
   PatchMesh patches = straight_patches(testing::lattice(2, 1, 16, 8));
-  testing::set_linear_colors(patches, Color(1, 0, 0, 1), Color(-0.125f, 0, 0, -0.125f));
-  const Raster texture =
-      texture_of(GlbFile(write(testing::single_layer(std::move(patches), 16, 8))));
+  testing::set_linear_colors(patches, Color(1, 0, 0, 1), Color(-1, 0, 0, -1) / 12);
+  const Raster texture = written(testing::single_layer(std::move(patches), 16, 8)).image(0);
   ASSERT_TRUE(texture.has_alpha());
   EXPECT_EQ(texture.pixel(31, 0)[3], 0);
   for (int x = 0; x < texture.width; ++x) EXPECT_GT(texture.pixel(x, 3)[0], 0.98) << x;
@@ -196,16 +172,28 @@ TEST(Gltf, PassesTheKhronosValidator) {
   layered.layers.push_back(layered.layers[0]);
   layered.layers[1].transform = Eigen::Translation2d(25, 5) * Eigen::Scaling(-0.5, 0.5);
   std::vector<std::string> command = {"node", script};
-  const auto add = [&](const VectorImage& image, double texels = 2) {
-    command.push_back(write(image, {.texels_per_pixel = texels}).string());
+  const auto add = [&](const VectorImage& image, const GltfOptions& options = {},
+                       const std::string& ending = ".glb") {
+    command.push_back(written(image, options, {}, ending).path.string());
   };
   add(random_picture(4, 3, 48, 33));
-  add(random_picture(1, 1, 1, 1, 1, 0), 1);
+  add(random_picture(1, 1, 1, 1, 1, 0), {.texels_per_pixel = 1});
   add(random_picture(4, 3, 48, 33, 5, 0.6, false));
   add(left_half(Color(0.5f, 0.2f, 0, 0.5f)));
   add(layered);
   // 65536 vertices, one more than 16-bit indices reach.
   add(testing::single_layer(straight_patches(testing::lattice(255, 255, 60, 40)), 60, 40));
+  const VectorImage torn = test::torn_disc(true), torn_alpha = test::torn_disc(false);
+  for (const VectorImage* image : {&torn, &torn_alpha, &std::as_const(layered)}) {
+    for (const auto compression :
+         {GltfCompression::none, GltfCompression::quantize, GltfCompression::meshopt}) {
+      add(*image, {.lit = true, .relief = 5, .compression = compression});
+      add(*image, {.colors = GltfColors::vertex, .compression = compression});
+      add(*image, {.texture_format = GltfTextureFormat::webp, .compression = compression}, ".gltf");
+      add(*image, {.texture_format = GltfTextureFormat::jpeg, .compression = compression}, ".gltf");
+    }
+    add(*image, {.colors = GltfColors::vertex, .lit = true}, ".gltf");
+  }
   std::string output;
   EXPECT_EQ(test::run(command, &output), 0) << output;
 }
@@ -213,9 +201,9 @@ TEST(Gltf, PassesTheKhronosValidator) {
 TEST(Gltf, MirroredLayersFaceTheFrontAndLieAboveTheOthers) {
   VectorImage image = random_picture(3, 3, 30, 20);
   image.layers[0].transform = Eigen::Translation2d(30, 0) * Eigen::Scaling(-1.0, 1.0);
-  expect_tiling(GlbFile(write(image)), 30, 20);
+  expect_tiling(written(image), 30, 20);
   image.layers.push_back(image.layers[0]);
-  const GlbFile file(write(image));
+  const GltfFile file = written(image);
   ASSERT_EQ(file.gltf["nodes"].size(), 2);
   EXPECT_EQ(file.gltf["nodes"][1]["translation"], json({0.0, 0.0, 1.0}));
 }
@@ -224,16 +212,16 @@ TEST(Gltf, WritesTheSameBytesForAnyThreadCount) {
   const VectorImage image = random_picture(5, 4, 50, 40, 3, 0.6, false);
   RunContext context;
   context.threads = 1;
-  const std::string expected = GlbFile(write(image, {}, context)).bytes;
+  const std::string expected = written(image, {}, context).bytes;
   for (const int threads : {2, 3}) {
     context.threads = threads;
-    EXPECT_EQ(GlbFile(write(image, {}, context)).bytes, expected);
+    EXPECT_EQ(written(image, {}, context).bytes, expected);
   }
 }
 
 ErrorCode failure(const VectorImage& image, const std::filesystem::path& path, double texels) {
   try {
-    write_glb(image, path, {.texels_per_pixel = texels});
+    write_gltf(image, path, {.texels_per_pixel = texels});
   } catch (const Error& error) {
     return error.code();
   }

@@ -51,9 +51,35 @@ struct PdfOptions {
   std::string title = "Quadrille picture";
 };
 
+enum class GltfColors {
+  texture,  ///< textures that the rasterizer draws
+  vertex,   ///< COLOR_0, linear: the triangles get as fine as the colours need
+};
+
+enum class GltfTextureFormat {
+  png,
+  webp,  ///< asks readers for EXT_texture_webp
+  jpeg,  ///< PNG for textures with transparency
+};
+
+enum class GltfCompression {
+  none,
+  quantize,  ///< 16-bit vertices (KHR_mesh_quantization): off by at most 1/131070 of the box's
+             ///< longest side
+  meshopt,   ///< those, compressed (EXT_meshopt_compression)
+};
+
 struct GltfOptions {
-  /// Size of the texture in texels per source pixel, > 0; reduced where a side would exceed 8192.
+  GltfColors colors = GltfColors::texture;
+  /// Size of the textures in texels per source pixel, > 0; reduced where a side would exceed 8192.
   double texels_per_pixel = 2;
+  GltfTextureFormat texture_format = GltfTextureFormat::png;
+  int texture_quality = 90;  ///< WebP and JPEG, 1 to 100
+  bool lit = false;          ///< a rough dielectric (PBR) with normals instead of an unlit one
+  /// Height of white above black in pixels, -1e6 to 1e6: z is the luma of Rec. 709 of the
+  /// sRGB-encoded premultiplied colours times this.
+  double relief = 0;
+  GltfCompression compression = GltfCompression::none;
 };
 
 struct VtkOptions {};
@@ -86,12 +112,18 @@ void write_pdf(const VectorImage& image, const std::filesystem::path& path,
 /// put over white.
 void write_postscript(const VectorImage& image, const std::filesystem::path& path,
                       const PdfOptions& options = {}, const RunContext& context = {});
-/// Triangles without T-junctions under an unlit texture per layer. 1 unit = 1 pixel, x to the
-/// right, y up, the picture's bottom left corner at the origin; layer k lies at z = k. Throws
-/// Error{invalid_argument} for a picture without patches or texels_per_pixel out of range.
-void write_glb(const VectorImage& image, const std::filesystem::path& path,
-               const GltfOptions& options = {}, const RunContext& context = {});
-/// One Bezier quadrilateral (VTK cell type 77) per patch, placed as in write_glb(). Point arrays:
+/// A binary .glb, or by the path's ending a .gltf beside NAME.bin and NAME-texture-K.png (.webp,
+/// .jpg). Per layer a mesh of quads and few triangles (FB_ngon_encoding) without T-junctions,
+/// within 0.05 pixels of the outline and of tears, along which vertices and textures are split: so
+/// tears stay sharp at any scale. 1 unit = 1 pixel, x to the right, y up, the picture's bottom left
+/// corner at the origin, its front towards +z, materials double-sided; layer k lies at z = k (1 +
+/// |relief|). Transparent patches are left out. The mesh's extras.quadrille_document holds the
+/// layer's patches: a quantised document in base64. Throws Error{invalid_argument} for a picture of
+/// which nothing can be seen, patches that are not finite or 1e7 pixels away, or options out of
+/// range, and Error{limit_exceeded} above 2^26 quads in a layer.
+void write_gltf(const VectorImage& image, const std::filesystem::path& path,
+                const GltfOptions& options = {}, const RunContext& context = {});
+/// One Bezier quadrilateral (VTK cell type 77) per patch, placed as in write_gltf(). Point arrays:
 /// "color" (float RGB) or, with transparency, "color_premultiplied" (float RGBA) are the exact
 /// control values; "rgba" (bytes, straight) is what plain viewers show, approximate where control
 /// values leave 0..1. Cell arrays: "patch", "layer", "scaled_jacobian".
@@ -102,8 +134,8 @@ void write_vtu(const VectorImage& image, const std::filesystem::path& path,
 std::vector<std::string> export_endings();
 
 /// Chooses the writer by the ending of the path: .quad, .png, .jpg, .jpeg, .webp, .tif, .tiff,
-/// .dzi, .svg, .svgz, .pdf, .ps, .eps, .glb, .vtu. Throws Error{unsupported_format} for any other,
-/// naming those it can write.
+/// .dzi, .svg, .svgz, .pdf, .ps, .eps, .glb, .gltf, .vtu. Throws Error{unsupported_format} for any
+/// other, naming those it can write.
 void export_image(const VectorImage& image, const std::filesystem::path& path,
                   const ExportOptions& options = {}, const RunContext& context = {});
 
