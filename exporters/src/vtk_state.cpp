@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "quadrille/error.h"
+#include "vtk_array_file.h"
 #include "vtk_arrays.h"
 
 namespace quadrille {
@@ -83,60 +84,14 @@ void store_layer(const Layer& layer, std::size_t index, vtkFieldData* data) {
                        patches.wedges);
 }
 
-/// Reads arrays of the data that must be there.
-class StateReader {
- public:
-  StateReader(vtkUnstructuredGrid* grid, std::string name)
-      : cells_(grid->GetCellData()), fields_(grid->GetFieldData()), name_(std::move(name)) {}
+using Part = VtkArrayFile::Part;
 
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw Error(ErrorCode::io_failure, "'" + name_ + "' is damaged: " + why + "; export it again");
-  }
-
-  template <class Array, class Element>
-  std::vector<Element> field(const std::string& array, int components) const {
-    return elements<Array, Element>(fields_->GetAbstractArray(array.c_str()), array, components);
-  }
-  template <class Array, class Element>
-  std::vector<Element> per_cell(const std::string& array, int components) const {
-    return elements<Array, Element>(cells_->GetAbstractArray(array.c_str()), array, components);
-  }
-  template <class Array, class Element>
-  Element single(const std::string& array, int components) const {
-    const auto values = field<Array, Element>(array, components);
-    if (values.size() != 1) refuse("the array '" + array + "' has a wrong size");
-    return values.front();
-  }
-  std::vector<std::string> texts(const char* array) const {
-    auto* const found = vtkStringArray::SafeDownCast(fields_->GetAbstractArray(array));
-    std::vector<std::string> list;
-    if (!found) return list;  // other programs leave an array without texts out
-    for (vtkIdType i = 0; i < found->GetNumberOfValues(); ++i) list.push_back(found->GetValue(i));
-    return list;
-  }
-  bool has_field(const char* array) const { return fields_->HasArray(array); }
-
- private:
-  /// An array of no tuples may be missing: not every program writes it.
-  template <class Array, class Element>
-  std::vector<Element> elements(vtkAbstractArray* found, const std::string& array,
-                                int components) const {
-    if (!found) return {};
-    auto* const typed = Array::SafeDownCast(found);
-    if (!typed || typed->GetNumberOfComponents() != components) {
-      refuse("the array '" + array + "' has a wrong type");
-    }
-    std::vector<Element> list(static_cast<std::size_t>(typed->GetNumberOfTuples()));
-    if (!list.empty()) {
-      std::memcpy(list.data(), typed->GetVoidPointer(0), list.size() * sizeof(Element));
-    }
-    return list;
-  }
-
-  vtkCellData* cells_;
-  vtkFieldData* fields_;
-  std::string name_;
-};
+template <class Number, class Element>
+Element single(const VtkArrayFile& file, const std::string& array) {
+  const auto values = file.elements<Number, Element>(Part::field, array);
+  if (values.size() != 1) file.refuse("the array '" + array + "' has a wrong size");
+  return values.front();
+}
 
 /// The corners of the cells: those of all layers, one after the other.
 struct Corners {
@@ -144,14 +99,14 @@ struct Corners {
   std::vector<QuadMesh::Quad> vertices, wedges;
 };
 
-Layer restore_layer(const StateReader& reader, std::size_t index, const Corners& corners) {
+Layer restore_layer(const VtkArrayFile& file, std::size_t index, const Corners& corners) {
   const auto name = [&](const char* what) { return layer_array(index, what); };
   Layer layer;
-  const auto m = reader.single<vtkDoubleArray, std::array<double, 6>>(name("transform"), 6);
+  const auto m = single<double, std::array<double, 6>>(file, name("transform"));
   layer.transform.matrix() << m[0], m[1], m[2], m[3], m[4], m[5], 0, 0, 1;
-  if (!layer.transform.matrix().allFinite()) reader.refuse("a transform is not finite");
+  if (!layer.transform.matrix().allFinite()) file.refuse("a transform is not finite");
   PatchMesh& patches = layer.patches;
-  patches.opaque = reader.single<vtkUnsignedCharArray, std::uint8_t>(name("opaque"), 1) != 0;
+  patches.opaque = single<std::uint8_t, std::uint8_t>(file, name("opaque")) != 0;
 
   std::vector<QuadMesh::Quad> quads;
   for (std::size_t c = 0; c < corners.layer.size(); ++c) {
@@ -161,32 +116,33 @@ Layer restore_layer(const StateReader& reader, std::size_t index, const Corners&
                                    corners.wedges[c].end());
   }
   try {
-    patches.mesh = QuadMesh(reader.field<vtkDoubleArray, Eigen::Vector2d>(name("vertices"), 2),
+    patches.mesh = QuadMesh(file.elements<double, Eigen::Vector2d>(Part::field, name("vertices")),
                             std::move(quads));
   } catch (const Error& error) {
-    reader.refuse(error.what());
+    file.refuse(error.what());
   }
-  patches.mesh.edge_flags = reader.field<vtkUnsignedCharArray, std::uint8_t>(name("edge_flags"), 1);
-  patches.edge_tangents = reader.field<vtkDoubleArray, EdgeTangents>(name("edge_tangents"), 4);
-  patches.wedges = reader.field<vtkFloatArray, Wedge>(name("wedges"), 16);
+  patches.mesh.edge_flags =
+      file.elements<std::uint8_t, std::uint8_t>(Part::field, name("edge_flags"));
+  patches.edge_tangents = file.elements<double, EdgeTangents>(Part::field, name("edge_tangents"));
+  patches.wedges = file.elements<float, Wedge>(Part::field, name("wedges"));
   const std::string contradiction = contradiction_in(patches);
-  if (!contradiction.empty()) reader.refuse(contradiction);
+  if (!contradiction.empty()) file.refuse(contradiction);
   return layer;
 }
 
-Corners restore_corners(const StateReader& reader, vtkIdType cells, std::size_t layers) {
+Corners restore_corners(const VtkArrayFile& file, std::size_t layers) {
   Corners corners;
-  corners.layer = reader.per_cell<vtkIntArray, int>("layer", 1);
-  corners.vertices = reader.per_cell<vtkIntArray, QuadMesh::Quad>("corner_vertices", 4);
-  corners.wedges = reader.per_cell<vtkIntArray, QuadMesh::Quad>("corner_wedges", 4);
-  const auto count = static_cast<std::size_t>(cells);
+  corners.layer = file.elements<int, int>(Part::cell, "layer");
+  corners.vertices = file.elements<int, QuadMesh::Quad>(Part::cell, "corner_vertices");
+  corners.wedges = file.elements<int, QuadMesh::Quad>(Part::cell, "corner_wedges");
+  const std::size_t count = file.cell_count();
   if (corners.layer.size() != count || corners.vertices.size() != count ||
       corners.wedges.size() != count) {
-    reader.refuse("arrays of its cells are missing");
+    file.refuse("arrays of its cells are missing");
   }
   for (const int layer : corners.layer) {
     if (layer < 0 || static_cast<std::size_t>(layer) >= layers) {
-      reader.refuse("a layer is out of range");
+      file.refuse("a layer is out of range");
     }
   }
   return corners;
@@ -219,33 +175,29 @@ void store_state(const VectorImage& image, vtkUnstructuredGrid* grid) {
                      4, wedge_corners);
 }
 
-VectorImage restore_state(vtkUnstructuredGrid* grid, const std::string& name) {
-  const StateReader reader(grid, name);
-  if (!reader.has_field(kVersionArray)) {
-    throw Error(ErrorCode::unsupported_format,
-                "'" + name + "' holds no patches of Quadrille; give a .vtu file that it wrote");
-  }
-  const int version = reader.single<vtkIntArray, int>(kVersionArray, 1);
+VectorImage restore_state(const VtkArrayFile& file) {
+  if (!file.has(Part::field, kVersionArray)) file.refuse_content("no patches of Quadrille");
+  const int version = single<int, int>(file, kVersionArray);
   if (version != kVersion) {
-    throw Error(ErrorCode::unsupported_format,
-                "'" + name + "' holds patches in version " + std::to_string(version) +
-                    " of the arrays; this program knows version " + std::to_string(kVersion));
+    file.refuse_content("patches in version " + std::to_string(version) +
+                        " of the arrays, and this program knows version " +
+                        std::to_string(kVersion));
   }
   VectorImage image;
-  const auto size = reader.single<vtkDoubleArray, std::array<double, 2>>("picture_size", 2);
+  const auto size = single<double, std::array<double, 2>>(file, "picture_size");
   for (const double side : size) {
-    if (!std::isfinite(side) || side <= 0) reader.refuse("its size is not positive");
+    if (!std::isfinite(side) || side <= 0) file.refuse("its size is not positive");
   }
   image.width = size[0];
   image.height = size[1];
-  const std::vector<std::string> metadata = reader.texts("metadata");
-  if (metadata.size() % 2 != 0) reader.refuse("its metadata has a key without a value");
+  const std::vector<std::string> metadata = file.texts("metadata");
+  if (metadata.size() % 2 != 0) file.refuse("its metadata has a key without a value");
   for (std::size_t i = 0; i < metadata.size(); i += 2)
     image.metadata[metadata[i]] = metadata[i + 1];
-  const std::vector<std::string> names = reader.texts("layer_names");
-  const Corners corners = restore_corners(reader, grid->GetNumberOfCells(), names.size());
+  const std::vector<std::string> names = file.texts("layer_names");
+  const Corners corners = restore_corners(file, names.size());
   for (std::size_t l = 0; l < names.size(); ++l) {
-    image.layers.push_back(restore_layer(reader, l, corners));
+    image.layers.push_back(restore_layer(file, l, corners));
     image.layers.back().name = names[l];
   }
   return image;

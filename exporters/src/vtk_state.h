@@ -1,8 +1,7 @@
 #pragma once
 
-#include <string>
-
 #include "quadrille/vector_image.h"
+#include "vtk_array_file.h"
 
 class vtkUnstructuredGrid;
 
@@ -12,8 +11,8 @@ namespace quadrille {
 /// Error{invalid_argument} for texts with zero bytes.
 void store_state(const VectorImage& image, vtkUnstructuredGrid* grid);
 
-/// The image whose state the grid holds. Throws Error{unsupported_format} for a grid without it and
-/// Error{io_failure}, naming the file, for one that contradicts itself.
-VectorImage restore_state(vtkUnstructuredGrid* grid, const std::string& name);
+/// The image whose state the file holds. Throws Error{unsupported_format} for a file without it and
+/// Error{io_failure} for one that contradicts itself.
+VectorImage restore_state(const VtkArrayFile& file);
 
 }  // namespace quadrille

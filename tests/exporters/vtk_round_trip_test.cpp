@@ -149,7 +149,7 @@ TEST_F(HostileVtu, TruncatedFilesAreRefused) {
 
 TEST_F(HostileVtu, DamagedBytesAreRefusedOrChangeNothingThatCounts) {
   testing::Random random(3);
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     std::string bytes = valid();
     const int damages = random.integer(1, 4);
     for (int k = 0; k < damages; ++k) {
@@ -174,9 +174,23 @@ int stored_again(const fs::path& from, const fs::path& to, const std::string& mo
 TEST(VtkStoredAgain, IsReadAsBefore) {
   const VectorImage image = random_picture(8, false);
   write_vtu(image, output("first.vtu"));
-  for (const char* mode : {"ascii", "binary", "appended"}) {
+  for (const char* mode : {"appended", "plain"}) {
     ASSERT_EQ(stored_again(output("first.vtu"), output("again.vtu"), mode), 0) << mode;
     EXPECT_TRUE(bits_of(read_vtu(output("again.vtu"))) == bits_of(image)) << mode;
+  }
+}
+
+TEST(VtkStoredAgain, InAnotherFormIsRefusedWithAHint) {
+  write_vtu(random_picture(8, false), output("first.vtu"));
+  for (const char* mode : {"ascii", "binary"}) {
+    ASSERT_EQ(stored_again(output("first.vtu"), output("again.vtu"), mode), 0) << mode;
+    try {
+      read_vtu(output("again.vtu"));
+      FAIL() << mode << " was read";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::unsupported_format);
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("store it with raw appended data"));
+    }
   }
 }
 

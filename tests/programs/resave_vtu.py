@@ -1,6 +1,6 @@
 """Stores a .vtu file again with VTK's own reader and writer, as other programs do.
 
-resave_vtu.py IN OUT ascii|binary|appended [MOVE]: MOVE is added to the first point's x.
+resave_vtu.py IN OUT ascii|binary|appended|plain [MOVE]: MOVE is added to the first point's x.
 """
 import sys
 
@@ -17,5 +17,10 @@ if len(sys.argv) > 4:
 writer = vtkXMLUnstructuredGridWriter()
 writer.SetFileName(target)
 writer.SetInputData(grid)
+writer.EncodeAppendedDataOff()  # as ParaView does
+if mode == 'plain':
+    writer.SetCompressorTypeToNone()
+    writer.SetHeaderTypeToUInt32()
+    mode = 'appended'
 {'ascii': writer.SetDataModeToAscii, 'binary': writer.SetDataModeToBinary, 'appended': writer.SetDataModeToAppended}[mode]()
 sys.exit(0 if writer.Write() == 1 else 1)

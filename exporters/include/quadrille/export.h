@@ -117,8 +117,9 @@ void write_vtm(const Scene& scene, const std::filesystem::path& path,
                const RunContext& context = {});
 
 /// Reads a file that write_vtu() wrote, perhaps stored again by another program that kept all
-/// arrays: the same image bit for bit. Field arrays "picture_size", "layer_names", "metadata" and,
-/// per layer L, "layerL_transform", "_opaque", "_vertices", "_edge_flags", "_edge_tangents" and
+/// arrays, as raw appended data: the same image bit for bit. Field arrays "picture_size",
+/// "layer_names", "metadata" and, per layer L, "layerL_transform", "_opaque", "_vertices",
+/// "_edge_flags", "_edge_tangents" and
 /// "_wedges"; cell arrays "layer", "corner_vertices" and "corner_wedges". Everything is verified as
 /// in a .quad document, and the control points must be those of the patches. Throws
 /// Error{unsupported_format} for a foreign file, Error{io_failure} for a missing or damaged one.
