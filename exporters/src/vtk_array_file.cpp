@@ -131,9 +131,9 @@ VtkArrayFile::VtkArrayFile(const std::filesystem::path& path)
     throw Error(ErrorCode::unsupported_format,
                 "'" + name_ + "' is no .vtu file; give one that Quadrille wrote");
   }
+  if (file_.rfind("</VTKFile>") == file_.npos) refuse("it is cut off");
   const std::size_t appended = file_.find("<AppendedData");
   if (appended == file_.npos) {
-    if (file_.find("</VTKFile>") == file_.npos) refuse("it is cut off");
     refuse_form("it has no appended data");
   }
   HeaderParser parser(*this);
@@ -141,7 +141,7 @@ VtkArrayFile::VtkArrayFile(const std::filesystem::path& path)
   if (parser.file_type != "UnstructuredGrid") refuse_form("it is no unstructured grid");
   if (parser.byte_order != "LittleEndian") refuse_form("its bytes are in another order");
   if (!parser.compressor.empty() && parser.compressor != "vtkZLibDataCompressor") {
-    refuse_form("it is compressed by " + parser.compressor);
+    refuse_form("it is not compressed by zlib");
   }
   compressed_ = !parser.compressor.empty();
   word_bytes_ = parser.header_type == "UInt64" ? 8 : 4;

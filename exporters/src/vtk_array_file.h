@@ -56,7 +56,7 @@ class VtkArrayFile {
     std::string type, format;
     unsigned long long components = 1, tuples = 0, offset = 0;
   };
-  static constexpr char kCoordinates[] = "\ncoordinates";  // no array has this name
+  static constexpr char kCoordinates[] = "points";
   class HeaderParser;
 
   static const char* type_name(double) { return "Float64"; }
