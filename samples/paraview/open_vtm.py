@@ -94,8 +94,7 @@ def show_crosses(source, view, depth, color):
 
 def show_patches(scene, view):
     patches = scene.layer('picture', 'patches')
-    exact = patches.PointData.GetArray('color')  # None with transparency: then straight bytes, a little less exact
-    show_colors(patches, view, 'POINTS', 'color' if exact else 'rgba', NonlinearSubdivisionLevel=2)
+    show_colors(patches, view, 'POINTS', 'rgba', NonlinearSubdivisionLevel=2)
 
 
 def show_cross_field(scene, view):
