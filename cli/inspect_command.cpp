@@ -46,9 +46,9 @@ int run_inspect(const InspectRequest& request) {
   constexpr double kFade = 0.55;
   const bool all_stages = ending_of(request.output) == ".vtm";
   if (all_stages != request.stage.empty()) {
-    throw UsageError(all_stages
-                         ? "a .vtm file holds every stage; leave out --stage"
-                         : "--stage is required, but for .vtm files, which hold every stage");
+    throw UsageError(std::string(all_stages ? "a .vtm file holds every stage; leave out --stage"
+                                            : "--stage is required unless the output is .vtm") +
+                     "; see 'quadrille help inspect'");
   }
   check_outputs({request.output}, request.input, inspect_endings());
   Observer observer(request.run.verbosity(), request.run.threads);
