@@ -7,11 +7,12 @@
 #include "canvas.h"
 #include "command.h"
 #include "common_options.h"
+#include "draw_layer.h"
 #include "output_files.h"
 #include "picture_input.h"
 #include "quadrille/error.h"
 #include "quadrille/raster_file.h"
-#include "stage_pictures.h"
+#include "quadrille/stage_layers.h"
 
 namespace quadrille::cli {
 namespace {
@@ -19,29 +20,46 @@ namespace {
 struct InspectRequest {
   std::filesystem::path input;
   std::filesystem::path output;
-  std::string stage;
-  double scale = 0;  // 0: chosen by the picture's size
+  std::string stage;  // empty: all, for .vtm
+  double scale = 0;   // 0: chosen by the picture's size
   MeshOptions mesh;
   RunOptions run;
 };
 
-/// Enlarges small pictures until mesh lines and crosses can be told apart.
-double readable_scale(const Raster& picture) {
-  constexpr double kWishedSide = 1600;
-  return std::clamp(std::round(kWishedSide / std::max(picture.width, picture.height)), 1.0, 8.0);
+/// The raster formats and, where this build has it, .vtm.
+std::vector<std::string> inspect_endings() {
+  std::vector<std::string> endings = kRasterEndings;
+  const std::vector<std::string> all = export_endings();
+  if (std::ranges::find(all, ".vtm") != all.end()) endings.push_back(".vtm");
+  return endings;
+}
+
+int write_all_stages(const InspectRequest& request, const Raster& picture, Observer& observer) {
+  const ChosenOptions options = choose_options(request.mesh, picture, observer);
+  const auto [result, stages] =
+      vectorize_in_stages(picture, request.input, options.vectorize, observer);
+  write_outputs({result.image, {&picture, &stages}}, {request.output}, {}, observer);
+  return kSuccess;
 }
 
 int run_inspect(const InspectRequest& request) {
   constexpr double kFade = 0.55;
-  check_outputs({request.output}, request.input, kRasterEndings);
+  const bool all_stages = ending_of(request.output) == ".vtm";
+  if (all_stages != request.stage.empty()) {
+    throw UsageError(std::string(all_stages ? "a .vtm file holds every stage; leave out --stage"
+                                            : "--stage is required unless the output is .vtm") +
+                     "; see 'quadrille help inspect'");
+  }
+  check_outputs({request.output}, request.input, inspect_endings());
   Observer observer(request.run.verbosity(), request.run.threads);
   const Raster picture = read_raster(request.input, observer);
+  if (all_stages) return write_all_stages(request, picture, observer);
   const ChosenOptions options = choose_options(request.mesh, picture, observer);
   const Quadrangulation stages = with_name_of(
       request.input, [&] { return quadrangulate(picture, options.vectorize, observer.context()); });
 
-  const auto chosen = std::ranges::find(stage_pictures(), request.stage, &StagePicture::name);
-  if (chosen->needs_fields && stages.cross.z.data.empty()) {
+  const auto chosen = std::ranges::find(scene_stages(), request.stage, &SceneStage::name);
+  if (!can_show(*chosen, stages)) {
     throw Error(ErrorCode::degenerate_input,
                 fmt::format("there is no {} to draw: a plain lattice was used; ask for fewer quads "
                             "or draw the stage quads",
@@ -49,8 +67,12 @@ int run_inspect(const InspectRequest& request) {
   }
 
   const Raster drawing = observer.stage("draw", [&] {
-    Canvas canvas(picture, request.scale > 0 ? request.scale : readable_scale(picture), kFade);
-    chosen->draw(canvas, stages);
+    Canvas canvas(picture,
+                  request.scale > 0 ? request.scale : readable_scale(picture.width, picture.height),
+                  kFade);
+    for (const SceneLayer& layer : chosen->layers(stages, 1 / canvas.zoom())) {
+      draw_layer(canvas, layer);
+    }
     return canvas.raster();
   });
   observer.stage("write", [&] { save_raster(drawing, request.output); });
@@ -63,16 +85,14 @@ int run_inspect(const InspectRequest& request) {
 Action declare_inspect(CLI::App& parser) {
   const auto request = std::make_shared<InspectRequest>();
   std::vector<std::string> names;
-  std::string explanation = "what to draw:";
-  for (const StagePicture& stage : stage_pictures()) {
+  std::string explanation = "what to draw; a .vtm file holds all of them:";
+  for (const SceneStage& stage : scene_stages()) {
     names.push_back(stage.name);
     explanation += fmt::format("\n{} - {}", stage.name, stage.summary);
   }
   declare_input(parser, request->input, "picture");
   declare_output(parser, request->output);
-  parser.add_option("--stage", request->stage, explanation)
-      ->required()
-      ->check(CLI::IsMember(names));
+  parser.add_option("--stage", request->stage, explanation)->check(CLI::IsMember(names));
   parser
       .add_option("--scale", request->scale,
                   "drawing pixels per source pixel; about 1600 pixels a side when absent")

@@ -41,7 +41,6 @@ class SvgLayer {
   std::vector<int> quads(PatchOpacity opacity) const;
 
  private:
-  void number_regions();
   void number_parts(double width, double height);
   bool fills(double width, double height) const;
 

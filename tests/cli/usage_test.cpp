@@ -81,6 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{"render", "a.quad", "-o", "b.png", "--scale", "2", "--width", "9"},
         std::vector<std::string>{"render", "a.quad", "-o", "b.png", "--bits", "12"},
         std::vector<std::string>{"inspect", "a.png", "-o", "b.png"},
+        std::vector<std::string>{"inspect", "a.png", "-o", "b.vtm", "--stage", "quads"},
         std::vector<std::string>{"inspect", "a.png", "-o", "b.png", "--stage", "colour"},
         std::vector<std::string>{"compare", "a.png"}, std::vector<std::string>{"info"},
         std::vector<std::string>{"info", "a.quad", "--xml"}));
