@@ -15,14 +15,15 @@ void declare_svg_options(CLI::App& parser, SvgOptions& options) {
   static const std::map<std::string, SvgLevel> kLevels = {{"compact", SvgLevel::compact},
                                                           {"balanced", SvgLevel::balanced},
                                                           {"faithful", SvgLevel::faithful},
+                                                          {"hybrid", SvgLevel::hybrid},
                                                           {"inkscape", SvgLevel::inkscape}};
   parser
       .add_option_function<std::string>(
           "--svg-level", [&](const std::string& name) { options.level = kLevels.at(name); },
           "how closely .svg files show the picture, at the price of their size: compact, balanced "
-          "or faithful; or inkscape: mesh gradients to edit in Inkscape, of which other programs "
-          "show flat colours")
-      ->check(CLI::IsMember({"compact", "balanced", "faithful", "inkscape"}))
+          "or faithful; or hybrid: pixel images behind exact outlines; or inkscape: mesh gradients "
+          "to edit in Inkscape, of which other programs show flat colours")
+      ->check(CLI::IsMember({"compact", "balanced", "faithful", "hybrid", "inkscape"}))
       ->default_str("balanced");
   parser
       .add_option_function<double>(
@@ -60,9 +61,12 @@ void declare_export_options(CLI::App& parser, ExportOptions& options) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   parser.parse_complete_callback([&options] {
-    if (options.svg.level != SvgLevel::inkscape || options.svg.size_limit == 0) return;
-    throw CLI::ValidationError("--svg-size-limit",
-                               "has nothing to choose at --svg-level inkscape; leave one out");
+    const SvgLevel level = options.svg.level;
+    const bool has_tolerance = level != SvgLevel::hybrid && level != SvgLevel::inkscape;
+    if (has_tolerance || options.svg.size_limit == 0) return;
+    throw CLI::ValidationError(
+        "--svg-size-limit",
+        "has nothing to choose at --svg-level hybrid and inkscape; leave one out");
   });
 }
 

@@ -27,6 +27,7 @@ const std::vector<Output>& all_outputs() {
       {"svg compact", ".svg", ours, {"--svg-level", "compact"}, kSvgPrograms},
       {"svg balanced", ".svg", ours, {}, kSvgPrograms},  // the default
       {"svg faithful", ".svg", ours, {"--svg-level", "faithful"}, kSvgPrograms},
+      {"svg hybrid", ".svg", ours, {"--svg-level", "hybrid"}, kSvgPrograms},
       {"svg inkscape", ".svg", ours, {"--svg-level", "inkscape"}, {"inkscape"}},
       {"pdf", ".pdf", ours, {}, kPdfPrograms},
       {"vtracer photo", ".svg", vtracer, {"Photo"}, kSvgPrograms},

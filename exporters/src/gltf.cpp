@@ -10,12 +10,14 @@
 #include "gltf_buffers.h"
 #include "gltf_control.h"
 #include "gltf_file.h"
-#include "gltf_layer.h"
+#include "gltf_sharpen.h"
 #include "gltf_surface.h"
-#include "gltf_texture.h"
 #include "patch_opacity.h"
 #include "quadrille/error.h"
 #include "quadrille/export.h"
+#include "sheet_texture.h"
+#include "sheeted_layer.h"
+#include "texture_file.h"
 
 namespace quadrille {
 namespace {
@@ -83,7 +85,7 @@ class GltfWriter {
   /// A mesh and its node, if anything of the layer can be seen. Layers are stacked a unit and the
   /// relief apart, because surfaces of equal depth would flicker.
   void add_layer(const Layer& given, const RunContext& context) {
-    const GltfLayer layer(given);
+    const SheetedLayer layer(given);
     if (layer.is_empty()) return;
     const SurfaceContent content{options_.colors == GltfColors::vertex, options_.lit,
                                  options_.relief};
@@ -155,11 +157,14 @@ class GltfWriter {
     return primitive;
   }
 
-  tinygltf::Primitive textured_primitive(const GltfLayer& layer, int sheet, const SurfacePart& part,
-                                         const PositionGrid& grid, const RunContext& context) {
-    const SheetTexture drawn =
+  tinygltf::Primitive textured_primitive(const SheetedLayer& layer, int sheet,
+                                         const SurfacePart& part, const PositionGrid& grid,
+                                         const RunContext& context) {
+    SheetTexture drawn =
         sheet_texture(image_, layer, sheet, options_.texels_per_pixel, share(context, 0, 0.4));
-    textures_.push_back(encode(drawn.texture, options_, share(context, 0.4, 1)));
+    sharpen_for_filtering(drawn.texture);
+    textures_.push_back(encode(drawn.texture, options_.texture_format, options_.texture_quality,
+                               share(context, 0.4, 1)));
     tinygltf::Primitive primitive = bare_primitive(part, grid);
     const double scale_x = drawn.picture_width / image_.width,
                  scale_y = drawn.picture_height / image_.height;

@@ -100,7 +100,7 @@ ColorCurve color_line(const BicubicBezier<Color>& color, bool along_u, double t)
 
 class Divider {
  public:
-  Divider(const GltfLayer& layer, const SurfaceContent& content)
+  Divider(const SheetedLayer& layer, const SurfaceContent& content)
       : layer_(layer), mesh_(layer.mesh()), judge_(content) {
     out_.edges.assign(mesh_.edge_count(), 1);
     out_.patches.assign(mesh_.quad_count(), {1, 1});
@@ -211,7 +211,7 @@ class Divider {
                     " cells to stay within the tolerances of glTF export; scale it down");
   }
 
-  const GltfLayer& layer_;
+  const SheetedLayer& layer_;
   const QuadMesh& mesh_;
   ContentJudge judge_;
   SurfaceDivisions out_;
@@ -219,7 +219,7 @@ class Divider {
 
 }  // namespace
 
-SurfaceDivisions divide(const GltfLayer& layer, const SurfaceContent& content,
+SurfaceDivisions divide(const SheetedLayer& layer, const SurfaceContent& content,
                         const RunContext& context) {
   return Divider(layer, content).run(context);
 }

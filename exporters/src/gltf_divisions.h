@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "gltf_layer.h"
 #include "quadrille/run_context.h"
+#include "sheeted_layer.h"
 
 namespace quadrille {
 
@@ -35,7 +35,7 @@ struct SurfaceDivisions {
 /// As coarse as the tolerances allow, and so that no triangle of a patch that does not fold faces
 /// away: the chords of a coarsely divided edge may cut through what lies beside it. Throws
 /// Error{limit_exceeded} when that takes more than 2^26 cells.
-SurfaceDivisions divide(const GltfLayer& layer, const SurfaceContent& content,
+SurfaceDivisions divide(const SheetedLayer& layer, const SurfaceContent& content,
                         const RunContext& context);
 
 }  // namespace quadrille

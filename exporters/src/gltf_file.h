@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gltf_buffers.h"
-#include "gltf_texture.h"
+#include "texture_file.h"
 
 namespace quadrille {
 

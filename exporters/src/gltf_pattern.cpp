@@ -91,7 +91,7 @@ void PatchPattern::add_strip(int side) {
   }
 }
 
-PatchPoints patch_points(const GltfLayer& layer, int quad, const PatchPattern& pattern) {
+PatchPoints patch_points(const SheetedLayer& layer, int quad, const PatchPattern& pattern) {
   const QuadMesh& mesh = layer.mesh();
   PatchPoints points;
   points.reserve(pattern.vertex_count());

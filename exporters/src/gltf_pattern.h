@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gltf_layer.h"
+#include "sheeted_layer.h"
 
 namespace quadrille {
 
@@ -45,7 +45,7 @@ class PatchPattern {
 
 /// Where the local vertices lie in the picture, in single precision and y down.
 using PatchPoints = std::vector<Eigen::Vector2f>;
-PatchPoints patch_points(const GltfLayer& layer, int quad, const PatchPattern& pattern);
+PatchPoints patch_points(const SheetedLayer& layer, int quad, const PatchPattern& pattern);
 
 /// The polygon as a fan around its first vertex: for a quad two triangles.
 struct CutPolygon {

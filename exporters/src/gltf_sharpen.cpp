@@ -1,9 +1,10 @@
+#include "gltf_sharpen.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "gltf_color.h"
-#include "gltf_texture.h"
 
 namespace quadrille {
 namespace {

@@ -44,7 +44,7 @@ Color mean_color(const BicubicBezier<Color>& color) {
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(const GltfLayer& layer, double picture_height, const SurfaceContent& content,
+  SurfaceMaker(const SheetedLayer& layer, double picture_height, const SurfaceContent& content,
                const RunContext& context)
       : layer_(layer),
         mesh_(layer.mesh()),
@@ -193,7 +193,7 @@ class SurfaceMaker {
     return {static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z())};
   }
 
-  const GltfLayer& layer_;
+  const SheetedLayer& layer_;
   const QuadMesh& mesh_;
   double picture_height_;
   SurfaceContent content_;
@@ -206,7 +206,7 @@ class SurfaceMaker {
 
 }  // namespace
 
-std::vector<SurfacePart> make_surface(const GltfLayer& layer, double picture_height,
+std::vector<SurfacePart> make_surface(const SheetedLayer& layer, double picture_height,
                                       const SurfaceContent& content, const RunContext& context) {
   return SurfaceMaker(layer, picture_height, content, context).run(context);
 }

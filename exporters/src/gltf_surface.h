@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "gltf_divisions.h"
-#include "gltf_layer.h"
 #include "quadrille/run_context.h"
+#include "sheeted_layer.h"
 
 namespace quadrille {
 
@@ -26,7 +26,7 @@ struct SurfacePart {
 /// and both patches beside it use the same places, so there are no T-junctions; they use the same
 /// vertices too, but along tears and where sheets meet. With relief z is the luma (Rec. 709) times
 /// its height, at a tear the mean of both sides': the surface stays closed.
-std::vector<SurfacePart> make_surface(const GltfLayer& layer, double picture_height,
+std::vector<SurfacePart> make_surface(const SheetedLayer& layer, double picture_height,
                                       const SurfaceContent& content, const RunContext& context);
 
 }  // namespace quadrille

@@ -92,11 +92,7 @@ class InkscapeSvgWriter {
       : out_(out), image_(image), context_(context) {}
 
   void write(const std::string& title) {
-    const std::string w = to_text(image_.width), h = to_text(image_.height);
-    out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-         << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << w << "\" height=\"" << h
-         << "\" viewBox=\"0 0 " << w << ' ' << h << "\" role=\"img\">\n"
-         << "<title>" << xml_escaped(title) << "</title>\n";
+    out_ << svg_head(image_.width, image_.height, title);
     for (std::size_t k = 0; k < image_.layers.size(); ++k) {
       out_ << "<g id=\"layer-" << to_text(static_cast<long long>(k + 1)) << "\">\n<title>"
            << xml_escaped(image_.layers[k].name) << "</title>\n";

@@ -8,6 +8,7 @@
 #include "quadrille/atomic_file.h"
 #include "quadrille/error.h"
 #include "quadrille/export.h"
+#include "svg_hybrid.h"
 #include "svg_size.h"
 #include "svg_writer.h"
 
@@ -31,6 +32,7 @@ LevelDetail detail_of(SvgLevel level) {
     case SvgLevel::faithful:
       return {0.8, 8};
     case SvgLevel::balanced:
+    case SvgLevel::hybrid:
     case SvgLevel::inkscape:
       break;
   }
@@ -81,6 +83,9 @@ class SvgFile {
     if (options_.level == SvgLevel::inkscape) {
       return write_inkscape_svg(out, image_, options_.title, context_);
     }
+    if (options_.level == SvgLevel::hybrid) {
+      return write_hybrid_svg(out, image_, options_.title, context_);
+    }
     const SvgDetail detail{tolerance * tolerance, detail_of(options_.level).units_per_pixel};
     write_svg_text(image_, options_.title, detail, context_, out);
   }
@@ -102,11 +107,13 @@ class SvgFile {
 
 void write_svg(const VectorImage& image, const std::filesystem::path& path,
                const SvgOptions& options, const RunContext& context) {
-  if (options.level == SvgLevel::inkscape && options.size_limit != 0) {
+  const bool has_tolerance =
+      options.level != SvgLevel::hybrid && options.level != SvgLevel::inkscape;
+  if (!has_tolerance && options.size_limit != 0) {
     throw Error(ErrorCode::invalid_argument,
                 "cannot write '" + path.string() +
-                    "': the SVG level inkscape has no tolerance to search for a size limit; leave "
-                    "the limit out, or choose another level");
+                    "': the SVG levels hybrid and inkscape have no tolerance to search for a size "
+                    "limit; leave the limit out, or choose another level");
   }
   const SvgFile svg(image, path, options, context);
   write_stream_atomically(path, [&](std::ostream& file) { svg.write(svg.tolerance(), file); });

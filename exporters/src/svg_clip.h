@@ -5,6 +5,9 @@
 
 namespace quadrille {
 
+/// True when the border of the layer's mesh is that of the picture, at which every viewer clips.
+bool fills_picture(const Layer& layer, double width, double height);
+
 /// The exact outline along a loop of edges, to clip with.
 SvgOutline clip_outline(const Layer& layer, const EdgeLoop& loop);
 

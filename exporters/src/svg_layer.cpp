@@ -7,13 +7,13 @@
 
 #include "quadrille/mesh_region.h"
 #include "subdivision.h"
+#include "svg_clip.h"
 
 namespace quadrille {
 namespace {
 
 /// With more regions than this all count as one: each takes a pass over the mesh.
 constexpr int kMostRegions = 64;
-constexpr double kSamePlace = 1e-3;  // pixels
 /// Farther from the origin, in pixels, nothing is painted.
 constexpr double kFarthest = 1e7;
 
@@ -53,7 +53,7 @@ void SvgLayer::number_parts(double width, double height) {
   std::vector<char> painted(mesh().quad_count());
   for (int q = 0; q < mesh().quad_count(); ++q) painted[q] = is_opaque(q);
   parts_ = paint_groups(mesh(), painted);
-  parts_.open_border = fills(width, height);
+  parts_.open_border = fills_picture(layer_, width, height);
   std::map<std::pair<int, int>, int> numbers;
   for (int q = 0; q < mesh().quad_count(); ++q) {
     if (painted[q]) numbers.try_emplace({region_[q], parts_.group[q]}, 0);
@@ -63,28 +63,6 @@ void SvgLayer::number_parts(double width, double height) {
   for (int q = 0; q < mesh().quad_count(); ++q) {
     if (painted[q]) parts_.group[q] = numbers.at({region_[q], parts_.group[q]});
   }
-}
-
-/// True when the border of the mesh is that of the picture, at which every viewer clips.
-bool SvgLayer::fills(double width, double height) const {
-  const Eigen::Vector2d size(width, height);
-  for (int h = 0; h < mesh().halfedge_count(); ++h) {
-    if (mesh().twin(h) >= 0) continue;
-    const PlaneCurve curve = edge_curve(layer_, h);
-    const bool on_side = [&] {
-      for (int axis = 0; axis < 2; ++axis) {
-        for (const double side : {0.0, size[axis]}) {
-          if (std::abs(curve[0][axis] - side) < kSamePlace &&
-              std::abs(curve[3][axis] - side) < kSamePlace) {
-            return true;
-          }
-        }
-      }
-      return false;
-    }();
-    if (!on_side) return false;
-  }
-  return true;
 }
 
 std::vector<int> SvgLayer::quads(PatchOpacity opacity) const {

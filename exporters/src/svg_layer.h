@@ -42,7 +42,6 @@ class SvgLayer {
 
  private:
   void number_parts(double width, double height);
-  bool fills(double width, double height) const;
 
   const Layer& layer_;
   std::vector<PatchOpacity> opacity_;

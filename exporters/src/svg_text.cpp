@@ -53,6 +53,15 @@ std::string xml_escaped(std::string_view text) {
   return escaped;
 }
 
+std::string svg_head(double width, double height, std::string_view title) {
+  const std::string w = to_text(width), h = to_text(height);
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+         "xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" width=\"" +
+         w + "\" height=\"" + h + "\" viewBox=\"0 0 " + w + ' ' + h + "\" role=\"img\">\n<title>" +
+         xml_escaped(title) + "</title>\n";
+}
+
 std::string short_identifier(long long number) {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
   constexpr auto kBase = static_cast<long long>(kLetters.size());

@@ -15,6 +15,9 @@ std::string to_short_text(double number, int digits);
 /// The text with &, <, > and " as XML entities and without characters that XML forbids.
 std::string xml_escaped(std::string_view text);
 
+/// The head of an SVG document of width x height pixels, up to and with its title.
+std::string svg_head(double width, double height, std::string_view title);
+
 /// A short XML name for each number from 0 on.
 std::string short_identifier(long long number);
 

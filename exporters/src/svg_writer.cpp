@@ -33,13 +33,8 @@ class SvgWriter {
       : image_(image), detail_(detail), context_(context), out_(out), cells_(out, detail) {}
 
   void write(const std::string& title) {
-    const std::string w = to_text(image_.width), h = to_text(image_.height);
-    out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-         << "<svg xmlns=\"http://www.w3.org/2000/svg\" "
-            "xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" width=\""
-         << w << "\" height=\"" << h << "\" viewBox=\"0 0 " << w << ' ' << h << "\" role=\"img\">\n"
-         << "<title>" << xml_escaped(title) << "</title>\n"
-         << "<g transform=\"scale(" << to_text(1.0 / detail_.units_per_pixel) << ")\">\n";
+    out_ << svg_head(image_.width, image_.height, title) << "<g transform=\"scale("
+         << to_text(1.0 / detail_.units_per_pixel) << ")\">\n";
     for (const Layer& layer : image_.layers) write_layer(layer);
     out_ << "</g>\n</svg>\n";
   }

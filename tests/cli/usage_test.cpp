@@ -71,6 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{"a.png", "-o", "b.svg", "--svg-size-limit", "0"},
         std::vector<std::string>{"a.png", "-o", "b.svg", "--svg-level", "inkscape",
                                  "--svg-size-limit", "100"},
+        std::vector<std::string>{"a.png", "-o", "b.svg", "--svg-level", "hybrid",
+                                 "--svg-size-limit", "100"},
         std::vector<std::string>{"a.png", "-o", "b.pdf", "--dpi", "0"},
         std::vector<std::string>{"a.png", "-o", "b.pdf", "--dpi", "1e12"},
         std::vector<std::string>{"a.png", "-o", "b.png", "--threads", "-1"},

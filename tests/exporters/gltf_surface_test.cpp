@@ -7,9 +7,9 @@
 #include <set>
 
 #include "exporters/gltf_file.h"
-#include "gltf_layer.h"
 #include "gltf_pattern.h"
 #include "quadrille/document.h"
+#include "sheeted_layer.h"
 #include "support/random_patches.h"
 #include "support/torn_meshes.h"
 
@@ -108,7 +108,7 @@ TEST(GltfSurface, NoFanJoinsMoreThanAQuad) {
 
 TEST(GltfSurface, StaysWithinTheToleranceOfTheOutlineAndOfTears) {
   const VectorImage image = test::torn_disc(true);
-  const GltfLayer layer(image.layers[0]);
+  const SheetedLayer layer(image.layers[0]);
   const GltfFile file = written(image);
   std::vector<Eigen::Vector2d> vertices;
   for (std::size_t p = 0; p < file.primitive_count(0); ++p) {

@@ -1,6 +1,4 @@
 // What the textures of glTF files show, and the files around them.
-#include "gltf_texture.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,10 +7,11 @@
 #include <limits>
 
 #include "exporters/gltf_file.h"
-#include "gltf_layer.h"
+#include "gltf_sharpen.h"
 #include "quadrille/error.h"
 #include "quadrille/metrics.h"
 #include "quadrille/render.h"
+#include "sheeted_layer.h"
 #include "support/programs.h"
 #include "support/random_patches.h"
 #include "support/torn_meshes.h"
@@ -73,7 +72,7 @@ TEST(GltfTexture, TransparentPatchesAreLeftOut) {
 TEST(GltfTexture, PatchesThatATearSeparatesHaveDifferentSheets) {
   for (const bool is_opaque : {true, false}) {
     const VectorImage image = test::torn_disc(is_opaque);
-    const GltfLayer layer(image.layers[0]);
+    const SheetedLayer layer(image.layers[0]);
     const auto& wedge = image.layers[0].patches.wedge_of_corner;
     EXPECT_EQ(layer.sheet_count(), 2);
     for (int v = 0; v < layer.mesh().vertex_count(); ++v) {
@@ -106,7 +105,7 @@ std::array<double, 4> sampled(const Raster& texture, double u, double v) {
 
 TEST(GltfTexture, ShowsEachPatchItsOwnColoursUpToItsCorners) {
   const VectorImage image = test::torn_disc(true);
-  const GltfLayer layer(image.layers[0]);
+  const SheetedLayer layer(image.layers[0]);
   const GltfFile file = written(image, {.texels_per_pixel = 8});
   std::vector<Raster> textures;
   for (int s = 0; s < layer.sheet_count(); ++s) textures.push_back(file.image(s));

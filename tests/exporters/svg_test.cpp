@@ -274,5 +274,27 @@ TEST(Svg, PixelsThatAnOutlineHalvesAreCoveredOnce) {
   EXPECT_THAT(bytes_of(output("half.svg")), HasSubstr("<clipPath id=\"region-1-clip-1\">"));
 }
 
+TEST(Svg, HybridImagesAreSharpAtTearsAndOutlines) {
+  for (const bool is_torn_picture : {true, false}) {
+    const VectorImage image = halves(Color(0.9f, 0.8f, 0.2f, 1),
+                                     is_torn_picture ? Color(0.1f, 0.1f, 0.4f, 1) : Color::Zero());
+    const fs::path svg = output("hybrid.svg");
+    write_svg(image, svg, {.level = SvgLevel::hybrid});
+    for (const int scale : {1, 4}) {
+      const Raster expected = render(image, {.scale = double(scale)});
+      const Raster drawn = drawn_by_librsvg(svg, {100 * scale, 60 * scale});
+      EXPECT_GT(compare(drawn, expected).psnr, 40) << scale;
+    }
+    EXPECT_THROW(write_svg(image, svg, {.level = SvgLevel::hybrid, .size_limit = 1000}), Error);
+  }
+}
+
+TEST(Svg, HybridKeepsTransparency) {
+  const VectorImage image = halves(Color(0.45f, 0.4f, 0.1f, 0.5f), Color(0.1f, 0.1f, 0.4f, 1));
+  const fs::path svg = output("hybrid.svg");
+  write_svg(image, svg, {.level = SvgLevel::hybrid});
+  EXPECT_GT(compare(drawn_by_librsvg(svg, {100, 60}), render(image)).psnr, 38);
+}
+
 }  // namespace
 }  // namespace quadrille

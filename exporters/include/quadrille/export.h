@@ -22,7 +22,7 @@ struct RasterFileOptions {
   std::array<float, 3> background = {1, 1, 1};
 };
 
-/// How closely an SVG file shows the picture. Each but the last has a tolerance t: colours are
+/// How closely an SVG file shows the picture. The first three have a tolerance t: colours are
 /// approximated more finely wherever that lowers the squared error (8-bit steps, summed over square
 /// pixels, mean of the channels) by t^2 or more for a byte of the compressed file.
 enum class SvgLevel {
@@ -30,13 +30,16 @@ enum class SvgLevel {
   balanced,  ///< t = 1.7
   faithful,  ///< t = 0.8, and coordinates to 1/8 of a pixel instead of 1/4 (both eight times
              ///< finer along tears and the outline)
+  hybrid,    ///< one pixel image per side of the tears behind exact outlines: not independent of
+             ///< the resolution inside
   inkscape,  ///< mesh gradients that Inkscape draws and edits; others show flat colours
 };
 
 struct SvgOptions {
   SvgLevel level = SvgLevel::balanced;
   /// Most bytes of the file as written, 0 for any: where the level takes more, a larger tolerance,
-  /// up to 128, is searched that fits. The level inkscape allows none.
+  /// up to 128, is searched that fits. The levels hybrid and inkscape
+  /// allow none.
   std::uint64_t size_limit = 0;
   std::string title = "Quadrille picture";
 };

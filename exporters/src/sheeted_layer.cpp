@@ -1,4 +1,4 @@
-#include "gltf_layer.h"
+#include "sheeted_layer.h"
 
 #include <algorithm>
 #include <string>
@@ -25,14 +25,14 @@ bool is_usable(const BicubicBezier<Eigen::Vector2d>& position, const BicubicBezi
 
 }  // namespace
 
-GltfLayer::GltfLayer(const Layer& layer) : layer_(layer) {
+SheetedLayer::SheetedLayer(const Layer& layer) : layer_(layer) {
   find_patches();
   color_sheets();
   widen_sheets();
   join_corners();
 }
 
-void GltfLayer::find_patches() {
+void SheetedLayer::find_patches() {
   const int count = mesh().quad_count();
   position_.reserve(count);
   color_.reserve(count);
@@ -42,12 +42,12 @@ void GltfLayer::find_patches() {
     if (is_usable(position_[q], color_[q])) continue;
     throw Error(ErrorCode::invalid_argument,
                 "patch " + std::to_string(q) + " of layer '" + layer_.name +
-                    "' is not finite or reaches farther than 10 million pixels, which glTF's "
-                    "single precision does not show; remove it or scale the layer down");
+                    "' is not finite or reaches farther than 10 million pixels; remove it or scale "
+                    "the layer down");
   }
 }
 
-std::vector<int> GltfLayer::torn_from(int quad) const {
+std::vector<int> SheetedLayer::torn_from(int quad) const {
   std::vector<int> others;
   for (int h = 4 * quad; h < 4 * quad + 4; ++h) {
     for (const int other : mesh().fan(mesh().origin(h))) {
@@ -60,7 +60,7 @@ std::vector<int> GltfLayer::torn_from(int quad) const {
 
 /// Greedy colouring in the order of a breadth-first search over the patches that tears separate:
 /// along a tear that meets no other, one side is on the first sheet and the other on the second.
-void GltfLayer::color_sheets() {
+void SheetedLayer::color_sheets() {
   constexpr int kOpen = -2, kHidden = -1;
   sheet_.assign(mesh().quad_count(), kOpen);
   for (const int q :
@@ -90,7 +90,7 @@ void GltfLayer::color_sheets() {
 
 /// What lies behind a side of a tear goes on its sheet, too, so that the two sides' paint is some
 /// patches apart on each sheet: filtering over a few texels then mixes nothing.
-void GltfLayer::widen_sheets() {
+void SheetedLayer::widen_sheets() {
   constexpr int kRings = 2;
   std::vector<int> ring;
   std::vector<char> is_reached(mesh().quad_count(), 0);
@@ -115,7 +115,7 @@ void GltfLayer::widen_sheets() {
   }
 }
 
-std::vector<char> GltfLayer::torn_off(int sheet) const {
+std::vector<char> SheetedLayer::torn_off(int sheet) const {
   std::vector<char> is_torn_off(mesh().quad_count(), 0);
   for (int q = 0; q < mesh().quad_count(); ++q) {
     if (sheet_[q] != sheet) continue;
@@ -124,7 +124,7 @@ std::vector<char> GltfLayer::torn_off(int sheet) const {
   return is_torn_off;
 }
 
-void GltfLayer::join_corners() {
+void SheetedLayer::join_corners() {
   const auto& wedge = layer_.patches.wedge_of_corner;
   shared_corner_.assign(mesh().halfedge_count(), 0);
   for (int h = 0; h < mesh().halfedge_count(); ++h) {
@@ -138,14 +138,14 @@ void GltfLayer::join_corners() {
   }
 }
 
-int GltfLayer::shared_side(int h) const {
+int SheetedLayer::shared_side(int h) const {
   const int twin = mesh().twin(h);
   const bool is_shared = twin >= 0 && shared_corner(h) == shared_corner(QuadMesh::next(twin)) &&
                          shared_corner(QuadMesh::next(h)) == shared_corner(twin);
   return is_shared ? std::min(h, twin) : h;
 }
 
-std::vector<int> GltfLayer::colors_at(int h) const {
+std::vector<int> SheetedLayer::colors_at(int h) const {
   const auto& wedge = layer_.patches.wedge_of_corner;
   std::vector<int> corners;
   for (const int other : mesh().fan(mesh().origin(h))) {
@@ -161,12 +161,12 @@ std::vector<int> GltfLayer::colors_at(int h) const {
   return found;
 }
 
-bool GltfLayer::is_contour(int h) const {
+bool SheetedLayer::is_contour(int h) const {
   const int twin = mesh().twin(h);
   return twin < 0 || shared_side(h) != shared_side(twin);
 }
 
-PlaneCurve GltfLayer::edge_curve(int e) const {
+PlaneCurve SheetedLayer::edge_curve(int e) const {
   const int h = mesh().halfedge(e);
   return side_curve(position(QuadMesh::quad_of(h)), QuadMesh::corner_of(h));
 }

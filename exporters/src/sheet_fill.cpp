@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "gltf_texture.h"
+#include "sheet_texture.h"
 
 namespace quadrille {
 namespace {

@@ -6,13 +6,13 @@
 
 namespace quadrille {
 
-/// A layer as the glTF writer sees it: Bezier patches in the picture's coordinates, without those
-/// that are transparent, and what of their corners and sides is one.
-class GltfLayer {
+/// A layer as surfaces under textures see it: Bezier patches in the picture's coordinates, without
+/// those that are transparent, and what of their corners and sides is one.
+class SheetedLayer {
  public:
   /// Keeps a reference to the layer. Throws Error{invalid_argument} when a patch is not finite or
   /// reaches farther than 1e7 pixels from the picture's origin.
-  explicit GltfLayer(const Layer& layer);
+  explicit SheetedLayer(const Layer& layer);
 
   const Layer& layer() const { return layer_; }
   const QuadMesh& mesh() const { return layer_.patches.mesh; }

@@ -1,10 +1,11 @@
+#include "texture_file.h"
+
 #include <vips/vips.h>
 
 #include <exception>
 #include <memory>
 #include <string>
 
-#include "gltf_texture.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
@@ -70,13 +71,13 @@ int save(VipsImage* picture, const char* ending, int quality, void** bytes, std:
 
 }  // namespace
 
-EncodedTexture encode(const Texture& texture, const GltfOptions& options,
+EncodedTexture encode(const Texture& texture, GltfTextureFormat format, int quality,
                       const RunContext& context) {
   EncodedTexture encoded;
-  if (options.texture_format == GltfTextureFormat::webp) {
+  if (format == GltfTextureFormat::webp) {
     encoded.mime_type = "image/webp";
     encoded.ending = ".webp";
-  } else if (options.texture_format == GltfTextureFormat::jpeg && texture.channels == 3) {
+  } else if (format == GltfTextureFormat::jpeg && texture.channels == 3) {
     encoded.mime_type = "image/jpeg";
     encoded.ending = ".jpg";
   }
@@ -86,7 +87,7 @@ EncodedTexture encode(const Texture& texture, const GltfOptions& options,
   g_signal_connect(picture.get(), "eval", G_CALLBACK(on_eval), &watch);
   void* bytes = nullptr;
   std::size_t size = 0;
-  const int status = save(picture.get(), encoded.ending, options.texture_quality, &bytes, &size);
+  const int status = save(picture.get(), encoded.ending, quality, &bytes, &size);
   const std::unique_ptr<void, decltype(&g_free)> owner(bytes, g_free);
   if (watch.failure) {
     vips_error_clear();

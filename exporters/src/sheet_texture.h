@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "gltf_layer.h"
-#include "quadrille/export.h"
 #include "quadrille/render.h"
 #include "quadrille/run_context.h"
+#include "sheeted_layer.h"
 
 namespace quadrille {
 
@@ -37,30 +36,14 @@ inline constexpr int kMaxTextureSide = 8192;
 /// One sheet of a layer, drawn over the whole picture's rectangle (the first sheet) or over that of
 /// its patches. The geometry does the clipping, so alpha is the paint's own, without the coverage
 /// of outline and tears, and paint goes on past them: texels that none of the sheet's patches
-/// touches, and the colour of transparent ones, are filled from their surroundings. Sharpened for
-/// filtering. RGB when everything that the patches show is opaque.
-SheetTexture sheet_texture(const VectorImage& image, const GltfLayer& layer, int sheet,
+/// touches, and the colour of transparent ones, are filled from their surroundings. RGB when
+/// everything that the patches show is opaque.
+SheetTexture sheet_texture(const VectorImage& image, const SheetedLayer& layer, int sheet,
                            double texels_per_pixel, const RunContext& context);
 
 /// Replaces the channels [first, first + count) of every texel that is not known: within four
 /// texels of known ones by what is next to them, farther off by the mean of known texels in its
 /// surroundings. `known` has one entry per texel. Does nothing when none is known.
 void fill_unknown(Texture& texture, int first, int count, std::vector<std::uint8_t> known);
-
-/// Makes up for the blur of graphics processors, which show weighted means of neighbouring texels
-/// in linear light: subtracts a tenth of the discrete Laplacian there (a prefilter for linear
-/// interpolation, as in Blu, Thevenaz, Unser, Linear interpolation revitalized, 2004, by one step
-/// instead of a recursion). Plain areas and linear ramps stay as they are.
-void sharpen_for_filtering(Texture& texture);
-
-/// The texture as a file of the format; with alpha, PNG instead of JPEG. Throws Error{io_failure},
-/// and Error{cancelled} when the context asks to stop.
-struct EncodedTexture {
-  std::vector<std::uint8_t> bytes;
-  const char* mime_type = "image/png";
-  const char* ending = ".png";
-};
-EncodedTexture encode(const Texture& texture, const GltfOptions& options,
-                      const RunContext& context);
 
 }  // namespace quadrille

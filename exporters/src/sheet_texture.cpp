@@ -1,4 +1,4 @@
-#include "gltf_texture.h"
+#include "sheet_texture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace quadrille {
 namespace {
 
 /// A sheet's patches, and around them those that are not torn off: in them, too, paint goes on.
-std::vector<char> shown_patches(const GltfLayer& layer, int sheet) {
+std::vector<char> shown_patches(const SheetedLayer& layer, int sheet) {
   const QuadMesh& mesh = layer.mesh();
   std::vector<char> is_near(mesh.vertex_count(), 0);
   for (int q = 0; q < mesh.quad_count(); ++q) {
@@ -133,7 +133,7 @@ class SheetPainter {
 };
 
 /// The texels that the sheet's patches may touch, and some around for coarser levels of detail.
-PixelRegion sheet_region(const GltfLayer& layer, int sheet, double scale_x, double scale_y,
+PixelRegion sheet_region(const SheetedLayer& layer, int sheet, double scale_x, double scale_y,
                          int width, int height) {
   constexpr double kMargin = 8;
   Eigen::Array2d low(width, height), high(0, 0);
@@ -175,7 +175,7 @@ void drop_alpha(Texture& texture) {
 
 }  // namespace
 
-SheetTexture sheet_texture(const VectorImage& image, const GltfLayer& layer, int sheet,
+SheetTexture sheet_texture(const VectorImage& image, const SheetedLayer& layer, int sheet,
                            double texels_per_pixel, const RunContext& context) {
   RenderOptions options;
   const double side = std::max(image.width, image.height);
@@ -203,7 +203,6 @@ SheetTexture sheet_texture(const VectorImage& image, const GltfLayer& layer, int
   if (result.alpha_mode == AlphaMode::opaque) {
     drop_alpha(texture);
     fill_unknown(texture, 0, 3, known);
-    sharpen_for_filtering(texture);
     return result;
   }
   fill_unknown(texture, 3, 1, known);
@@ -211,7 +210,6 @@ SheetTexture sheet_texture(const VectorImage& image, const GltfLayer& layer, int
     if (texture.data[4 * i + 3] == 0) known[i] = 0;
   }
   fill_unknown(texture, 0, 3, known);
-  sharpen_for_filtering(texture);
   return result;
 }
 
