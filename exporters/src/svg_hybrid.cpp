@@ -2,6 +2,7 @@
 
 #include <glib.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -48,6 +49,29 @@ std::string data_uri(const EncodedTexture& file) {
   return std::string("data:") + file.mime_type + ";base64," + text.get();
 }
 
+/// The outline of what a sheet shows: its patches, and those of later sheets around them, which
+/// paint over it. `to_outline` tells whether it ends at the outline of the layer, too; the first
+/// sheet goes on where it does not. Empty when nothing ends it.
+std::vector<EdgeLoop> sheet_outline(const SheetedLayer& layer, int sheet, bool to_outline,
+                                    bool fills) {
+  const QuadMesh& mesh = layer.mesh();
+  std::vector<char> inside(mesh.quad_count()), touched(mesh.vertex_count(), 0);
+  for (int q = 0; q < mesh.quad_count(); ++q) {
+    if (layer.sheet(q) != sheet) continue;
+    for (const int v : mesh.quads()[q]) touched[v] = 1;
+  }
+  bool is_whole = true;
+  for (int q = 0; q < mesh.quad_count(); ++q) {
+    const auto& corners = mesh.quads()[q];
+    const bool is_beside = sheet == 0 || std::any_of(corners.begin(), corners.end(),
+                                                     [&](int v) { return touched[v]; });
+    inside[q] = layer.is_drawn(q) ? layer.sheet(q) >= sheet && is_beside : !to_outline;
+    is_whole = is_whole && inside[q];
+  }
+  const bool ends = !is_whole || (to_outline && !fills);
+  return ends ? border_of(mesh, inside) : std::vector<EdgeLoop>{};
+}
+
 class HybridSvgWriter {
  public:
   HybridSvgWriter(std::ostream& out, const VectorImage& image, const RunContext& context)
@@ -74,33 +98,28 @@ class HybridSvgWriter {
                         layers_done_ + double(sheet) / layer.sheet_count() / image_.layers.size());
       textures.push_back(sheet_texture(image_, layer, sheet, kTexelsPerPixel, quiet_));
     }
-    PaintGroups sheets;
-    sheets.count = layer.sheet_count();
-    for (int q = 0; q < layer.mesh().quad_count(); ++q) sheets.group.push_back(layer.sheet(q));
-    sheets.open_border = fills_picture(source, image_.width, image_.height);
     out_ << "<g id=\"" << id << "\">\n";
     if (source.patches.opaque) {
-      write_sheets(layer, sheets, textures, id, colors_of);
+      write_sheets(layer, textures, id, colors_of, true);
     } else {
       out_ << "<mask id=\"" << id
            << "-alpha\" maskUnits=\"userSpaceOnUse\" x=\"0\" y=\"0\" width=\""
            << to_text(image_.width * kUnitsPerPixel) << "\" height=\""
            << to_text(image_.height * kUnitsPerPixel) << "\">\n";
-      write_sheets(layer, sheets, textures, id + "-alpha", alpha_of);
+      write_sheets(layer, textures, id + "-alpha", alpha_of, true);
       out_ << "</mask>\n<g mask=\"url(#" << id << "-alpha)\">\n";
-      sheets.open_border = sheets.open_unpainted = true;  // the mask ends them
-      write_sheets(layer, sheets, textures, id, colors_of);
+      write_sheets(layer, textures, id, colors_of, false);  // the mask has the outline
       out_ << "</g>\n";
     }
     out_ << "</g>\n";
   }
 
-  void write_sheets(const SheetedLayer& layer, const PaintGroups& sheets,
-                    const std::vector<SheetTexture>& textures, const std::string& id,
-                    Texture (*channels)(const Texture&)) {
-    for (int sheet = 0; sheet < sheets.count; ++sheet) {
+  void write_sheets(const SheetedLayer& layer, const std::vector<SheetTexture>& textures,
+                    const std::string& id, Texture (*channels)(const Texture&), bool to_outline) {
+    const bool fills = fills_picture(layer.layer(), image_.width, image_.height);
+    for (int sheet = 0; sheet < layer.sheet_count(); ++sheet) {
       const std::string name = id + "-sheet-" + to_text(static_cast<long long>(sheet + 1));
-      const std::vector<EdgeLoop> clip = group_region(layer.mesh(), sheets, sheet);
+      const std::vector<EdgeLoop> clip = sheet_outline(layer, sheet, to_outline, fills);
       if (!clip.empty()) {
         SvgPathData path(kUnitsPerPixel);
         for (const EdgeLoop& loop : clip) path.append(clip_outline(layer.layer(), loop));

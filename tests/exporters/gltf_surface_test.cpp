@@ -218,7 +218,9 @@ TEST(GltfSurface, VertexColoursAreLinearLight) {
       EXPECT_NEAR(color[1], 0.02 / 12.92, 2e-5);
       EXPECT_NEAR(color[2], 1, 2e-5);
       EXPECT_EQ(color.size(), alpha == 1 ? 3 : 4);
-      if (alpha < 1) EXPECT_NEAR(color[3], alpha, 2e-5);
+      if (alpha < 1) {
+        EXPECT_NEAR(color[3], alpha, 2e-5);
+      }
     }
   }
 }
