@@ -1,21 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "quadrille/raster.h"
+#include "quadrille/scene_layer.h"
 
 namespace quadrille::cli {
-
-/// Red, green, blue in 0..255.
-using Ink = std::array<int, 3>;
-
-inline constexpr Ink kRed = {214, 39, 40};
-inline constexpr Ink kBlue = {31, 84, 200};
-inline constexpr Ink kDark = {40, 40, 48};
 
 /// The faded picture, enlarged, to draw on with anti-aliased strokes. Points are in pixels of the
 /// source picture, stroke widths and radii in pixels of the canvas.

@@ -7,11 +7,12 @@
 #include "canvas.h"
 #include "command.h"
 #include "common_options.h"
+#include "draw_layer.h"
 #include "output_files.h"
 #include "picture_input.h"
 #include "quadrille/error.h"
 #include "quadrille/raster_file.h"
-#include "stage_pictures.h"
+#include "quadrille/stage_layers.h"
 
 namespace quadrille::cli {
 namespace {
@@ -40,8 +41,8 @@ int run_inspect(const InspectRequest& request) {
   const Quadrangulation stages = with_name_of(
       request.input, [&] { return quadrangulate(picture, options.vectorize, observer.context()); });
 
-  const auto chosen = std::ranges::find(stage_pictures(), request.stage, &StagePicture::name);
-  if (chosen->needs_fields && stages.cross.z.data.empty()) {
+  const auto chosen = std::ranges::find(scene_stages(), request.stage, &SceneStage::name);
+  if (!can_show(*chosen, stages)) {
     throw Error(ErrorCode::degenerate_input,
                 fmt::format("there is no {} to draw: a plain lattice was used; ask for fewer quads "
                             "or draw the stage quads",
@@ -50,7 +51,9 @@ int run_inspect(const InspectRequest& request) {
 
   const Raster drawing = observer.stage("draw", [&] {
     Canvas canvas(picture, request.scale > 0 ? request.scale : readable_scale(picture), kFade);
-    chosen->draw(canvas, stages);
+    for (const SceneLayer& layer : chosen->layers(stages, 1 / canvas.zoom())) {
+      draw_layer(canvas, layer);
+    }
     return canvas.raster();
   });
   observer.stage("write", [&] { save_raster(drawing, request.output); });
@@ -64,7 +67,7 @@ Action declare_inspect(CLI::App& parser) {
   const auto request = std::make_shared<InspectRequest>();
   std::vector<std::string> names;
   std::string explanation = "what to draw:";
-  for (const StagePicture& stage : stage_pictures()) {
+  for (const SceneStage& stage : scene_stages()) {
     names.push_back(stage.name);
     explanation += fmt::format("\n{} - {}", stage.name, stage.summary);
   }

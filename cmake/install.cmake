@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(rooms patches vectorize exporters)
+set(rooms patches scene vectorize exporters)
 list(TRANSFORM rooms PREPEND quadrille_ OUTPUT_VARIABLE room_targets)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/quadrille)
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "quadrille/mesh_region.h"
 #include "subdivision.h"
 
 namespace quadrille {
@@ -31,32 +32,11 @@ bool can_be_painted(const BicubicHermite<Eigen::Vector2d>& position,
 }  // namespace
 
 SvgLayer::SvgLayer(const Layer& layer, double tolerance)
-    : layer_(layer), opacity_(patch_opacities(layer.patches, tolerance)) {
+    : layer_(layer),
+      opacity_(patch_opacities(layer.patches, tolerance)),
+      region_(smooth_regions(layer.patches.mesh)) {
   for (int q = 0; q < mesh().quad_count(); ++q) {
     if (!can_be_painted(geometry(q), color(q))) opacity_[q] = PatchOpacity::transparent;
-  }
-  number_regions();
-}
-
-void SvgLayer::number_regions() {
-  region_.assign(mesh().quad_count(), -1);
-  std::vector<int> open;
-  int count = 0;
-  for (int q = 0; q < mesh().quad_count(); ++q) {
-    if (region_[q] >= 0) continue;
-    open.assign(1, q);
-    region_[q] = count;
-    while (!open.empty()) {
-      const int from = open.back();
-      open.pop_back();
-      for (int h = 4 * from; h < 4 * from + 4; ++h) {
-        const int twin = mesh().is_tear(mesh().edge(h)) ? -1 : mesh().twin(h);
-        if (twin < 0 || region_[QuadMesh::quad_of(twin)] >= 0) continue;
-        region_[QuadMesh::quad_of(twin)] = count;
-        open.push_back(QuadMesh::quad_of(twin));
-      }
-    }
-    ++count;
   }
 }
 

@@ -30,8 +30,6 @@ class SvgLayer {
   std::vector<int> quads(PatchOpacity opacity) const;
 
  private:
-  void number_regions();
-
   const Layer& layer_;
   std::vector<PatchOpacity> opacity_;
   std::vector<int> region_;

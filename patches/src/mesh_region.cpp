@@ -41,6 +41,28 @@ MeshRegionSize region_size(const QuadMesh& mesh) {
   return size;
 }
 
+std::vector<int> smooth_regions(const QuadMesh& mesh) {
+  std::vector<int> region(mesh.quad_count(), -1), open;
+  int count = 0;
+  for (int q = 0; q < mesh.quad_count(); ++q) {
+    if (region[q] >= 0) continue;
+    open.assign(1, q);
+    region[q] = count;
+    while (!open.empty()) {
+      const int from = open.back();
+      open.pop_back();
+      for (int h = 4 * from; h < 4 * from + 4; ++h) {
+        const int twin = mesh.is_tear(mesh.edge(h)) ? -1 : mesh.twin(h);
+        if (twin < 0 || region[QuadMesh::quad_of(twin)] >= 0) continue;
+        region[QuadMesh::quad_of(twin)] = count;
+        open.push_back(QuadMesh::quad_of(twin));
+      }
+    }
+    ++count;
+  }
+  return region;
+}
+
 std::vector<MeshViolation> validate_region(const QuadMesh& mesh, double width, double height) {
   std::vector<MeshViolation> found;
   for (int v = 0; v < mesh.vertex_count(); ++v) {

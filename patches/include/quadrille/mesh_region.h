@@ -20,6 +20,10 @@ struct MeshRegionSize {
 };
 MeshRegionSize region_size(const QuadMesh& mesh);
 
+/// Per quad the number of its smooth region: quads are of the same one when a way between them
+/// crosses no tear. Regions are numbered by their lowest quads, from 0.
+std::vector<int> smooth_regions(const QuadMesh& mesh);
+
 /// Lists where the mesh fails to be a tiling of some part of the rectangle [0, width] x [0,
 /// height], with any number of components and holes: a coordinate is not finite ("not finite") or
 /// outside of the rectangle ("outside"), a corner angle is not in (0, pi) ("corner"), V - E + F
