@@ -47,7 +47,8 @@ PixelActor::PixelActor()
   actor_->SetMapper(mapper);
   actor_->SetTexture(texture_);
   actor_->GetProperty()->LightingOff();
-  actor_->ForceTranslucentOn();
+  // VTK blends opaque actors, too, one over the other, but translucent ones in no order.
+  actor_->ForceOpaqueOn();
 }
 
 bool PixelActor::place(const Frame& frame, const RegionCache::Draw& draw, int first, int last) {

@@ -1,19 +1,10 @@
 #include "shape_actor.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkUnsignedCharArray.h>
-
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <span>
 
 #include "clip_shapes.h"
+#include "smooth_drawing.h"
 
 namespace quadrille::viewer {
 namespace {
@@ -44,65 +35,13 @@ class Inks {
   int components_ = 0;
 };
 
-/// Lines and discs in window pixels, painted in the order in which they are added; lines first.
-class Drawing {
- public:
-  explicit Drawing(double height) : height_(height) { inks_->SetNumberOfComponents(3); }
-
-  void add_line(std::span<const Vector2d> points, const Ink& ink) {
-    lines_->InsertNextCell(static_cast<int>(points.size()));
-    for (const Vector2d& p : points) lines_->InsertCellPoint(add_point(p));
-    add_ink(ink);
-  }
-
-  void add_disc(const Vector2d& center, double radius, const Ink& ink) {
-    constexpr int kCorners = 20;
-    discs_->InsertNextCell(kCorners);
-    for (int k = 0; k < kCorners; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kCorners;
-      discs_->InsertCellPoint(
-          add_point(center + radius * Vector2d(std::cos(angle), std::sin(angle))));
-    }
-    add_ink(ink);
-  }
-
-  vtkSmartPointer<vtkActor> finish(double width) {
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points_);
-    data->SetLines(lines_);
-    data->SetPolys(discs_);
-    data->GetCellData()->SetScalars(inks_);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(data);
-    auto actor = vtkSmartPointer<vtkActor>::New();
-    actor->SetMapper(mapper);
-    actor->GetProperty()->LightingOff();
-    actor->GetProperty()->SetLineWidth(static_cast<float>(width));
-    actor->ForceTranslucentOn();
-    return actor;
-  }
-
- private:
-  vtkIdType add_point(const Vector2d& p) {
-    return points_->InsertNextPoint(p.x(), height_ - p.y(), 0);
-  }
-  void add_ink(const Ink& ink) {
-    for (const int c : ink) inks_->InsertNextValue(static_cast<unsigned char>(c));
-  }
-
-  double height_;
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> lines_, discs_;
-  vtkNew<vtkUnsignedCharArray> inks_;
-};
-
 Vector2d vector_at(const SceneShapes& shapes, const char* name, int point) {
   const auto array = std::ranges::find(shapes.point_arrays, name, &SceneArray::name);
   const auto& values = std::get<std::vector<float>>(array->values);
   return {values[2 * point], values[2 * point + 1]};
 }
 
-void add_marker(Drawing& drawing, const SceneShapes& shapes, const SceneStyle& style,
+void add_marker(SmoothDrawing& drawing, const SceneShapes& shapes, const SceneStyle& style,
                 const Frame& frame, int point, const Vector2d& place, const Ink& ink) {
   switch (style.marker) {
     case Marker::dot:
@@ -121,7 +60,8 @@ void add_marker(Drawing& drawing, const SceneShapes& shapes, const SceneStyle& s
       for (const char* name : {"axis_u", "axis_v"}) {
         const Vector2d arm =
             style.arm_length * (vector_at(shapes, name, point).array() * frame.scale).matrix();
-        drawing.add_line(std::array{Vector2d(place - arm), Vector2d(place + arm)}, ink);
+        drawing.add_line(std::array{Vector2d(place - arm), Vector2d(place + arm)}, style.width,
+                         ink);
       }
       break;
   }
@@ -134,15 +74,15 @@ vtkSmartPointer<vtkActor> make_shape_actor(const SceneShapes& shapes, const Scen
   const Vector2d around = Vector2d::Constant(margin);
   const Eigen::AlignedBox2d box(-around, frame.window.cast<double>().matrix() + around);
   const WindowShapes clipped = clip_shapes(shapes, frame.scale, frame.origin.cast<double>(), box);
-  Drawing drawing(frame.window.y());
+  SmoothDrawing drawing(frame.window.y());
   const Inks cell_inks(style, shapes.cell_arrays), point_inks(style, shapes.point_arrays);
   for (const WindowShapes::Line& line : clipped.lines) {
-    drawing.add_line(line.points, cell_inks[line.cell]);
+    drawing.add_line(line.points, style.width, cell_inks[line.cell]);
   }
   for (const auto& [point, place] : clipped.points) {
     add_marker(drawing, shapes, style, frame, point, place, point_inks[point]);
   }
-  return drawing.finish(style.width);
+  return drawing.finish();
 }
 
 }  // namespace quadrille::viewer

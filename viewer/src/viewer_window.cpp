@@ -16,7 +16,6 @@
 namespace quadrille::viewer {
 namespace {
 
-constexpr int kSamples = 4;  // per pixel, for smooth lines
 constexpr int kPollMilliseconds = 50;
 
 vtkSmartPointer<vtkRenderWindow> make_window(const WindowSettings& settings, vtkRenderer* scene,
@@ -24,7 +23,7 @@ vtkSmartPointer<vtkRenderWindow> make_window(const WindowSettings& settings, vtk
   check_display();
   auto window = vtkSmartPointer<vtkRenderWindow>::New();
   window->SetOffScreenRendering(settings.offscreen);
-  window->SetMultiSamples(kSamples);
+  window->SetMultiSamples(0);
   window->SetSize(settings.size.x(), settings.size.y());
   window->SetWindowName(settings.title.c_str());
   window->SetNumberOfLayers(2);
