@@ -20,11 +20,11 @@ vtkSmartPointer<vtkSliderRepresentation2D> representation(const SliderRange& ran
   slider->GetPoint1Coordinate()->SetValue(place.left, place.height);
   slider->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedViewport();
   slider->GetPoint2Coordinate()->SetValue(place.right, place.height);
-  slider->SetSliderLength(0.03);
-  slider->SetSliderWidth(0.04);
-  slider->SetTubeWidth(0.012);
+  slider->SetSliderLength(0.015);
+  slider->SetSliderWidth(0.03);
+  slider->SetTubeWidth(0.006);
   slider->SetEndCapLength(0);
-  slider->SetTitleHeight(0.06);
+  slider->SetTitleHeight(0.025);
   slider->ShowSliderLabelOff();
   slider->GetTitleProperty()->SetFontFamilyToCourier();
   slider->GetTitleProperty()->ShadowOn();

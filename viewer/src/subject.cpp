@@ -10,7 +10,7 @@
 namespace quadrille::viewer {
 namespace {
 
-constexpr double kCurveTolerance = 0.1;  // window pixels
+constexpr double kCurveTolerance = 0.2;  // window pixels
 
 bool needs_image(LayerId id) {
   return id != LayerId::source && id != LayerId::scales && id != LayerId::cross_field &&

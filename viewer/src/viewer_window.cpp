@@ -75,7 +75,7 @@ void ViewerWindow::add_sliders() {
   const double most_quads =
       std::clamp(pixels / 4, std::max<double>(options_.quads, 2 * kLeastQuads), double{kMaxQuads});
   quads_slider_.emplace(interactor_, overlay_, SliderRange{kLeastQuads, most_quads},
-                        LogSlider::Place{0.56, 0.75, 0.06});
+                        LogSlider::Place{0.56, 0.75, 0.08});
   quads_slider_->set_title([](double quads) { return fmt::format("quads {:.0f}", quads); });
   quads_slider_->set_value(options_.quads);
   quads_slider_->on_release([this](double quads) {
@@ -83,7 +83,7 @@ void ViewerWindow::add_sliders() {
     vectorize_again();
   });
   lambda_slider_.emplace(interactor_, overlay_, SliderRange{kLeastLambda, kMostLambda},
-                         LogSlider::Place{0.79, 0.98, 0.06});
+                         LogSlider::Place{0.79, 0.98, 0.08});
   lambda_slider_->set_title([](double lambda) { return fmt::format("lambda {:.2g}", lambda); });
   lambda_slider_->set_value(options_.cross_field.alignment);
   lambda_slider_->on_release([this](double lambda) {
