@@ -111,7 +111,6 @@ void ViewerWindow::finish_background() {
     background_.wait();
     take_result();
   } while (background_.progress().running);
-  if (!message_.empty()) throw Error(ErrorCode::degenerate_input, message_);
 }
 
 void ViewerWindow::take_result() {

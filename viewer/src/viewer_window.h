@@ -40,6 +40,8 @@ class ViewerWindow : private Gestures {
   const Subject& subject() const { return layers_->subject(); }
   vtkRenderWindowInteractor* interactor() { return interactor_; }
   BackgroundRun& background() { return background_; }
+  /// As the sliders have them.
+  const VectorizeOptions& options() const { return options_; }
 
   /// Sliders that vectorize the source anew.
   void add_sliders();
