@@ -113,8 +113,8 @@ TEST_P(EachLayer, ItsKeyChangesPixelsWhereItHasSomethingAndNowhereElse) {
   expect_same(without, driver.scene(), 0, "toggled-twice");
 }
 
-INSTANTIATE_TEST_SUITE_P(Layers, EachLayer, ::testing::Range(0, kLayerCount), [](const auto& info) {
-  std::string name = layer_infos()[info.param].name;
+INSTANTIATE_TEST_SUITE_P(Layers, EachLayer, ::testing::Range(0, kLayerCount), [](const auto& layer) {
+  std::string name = layer_layers()[info.param].name;
   std::ranges::replace(name, '-', '_');
   return name;
 });
