@@ -4,7 +4,6 @@
 #include "common_options.h"
 #include "export_options.h"
 #include "output_files.h"
-#include "quadrille/document.h"
 
 namespace quadrille::cli {
 namespace {
@@ -19,8 +18,8 @@ struct ExportRequest {
 int run_export(const ExportRequest& request) {
   check_outputs(request.outputs, request.input, export_endings());
   Observer observer(request.run.verbosity(), request.run.threads);
-  const VectorImage image = observer.stage("read", [&] { return load_document(request.input); });
-  write_outputs(image, request.outputs, request.files, observer);
+  const VectorImage image = observer.stage("read", [&] { return import_image(request.input); });
+  write_outputs({image}, request.outputs, request.files, observer);
   return kSuccess;
 }
 
@@ -28,7 +27,7 @@ int run_export(const ExportRequest& request) {
 
 Action declare_export(CLI::App& parser) {
   const auto request = std::make_shared<ExportRequest>();
-  declare_input(parser, request->input, ".quad document");
+  declare_input(parser, request->input, "file of patches: .quad or .vtu");
   declare_outputs(parser, request->outputs);
   declare_export_options(parser, request->files);
   declare_run_options(parser, request->run);

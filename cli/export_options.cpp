@@ -52,6 +52,11 @@ void declare_export_options(CLI::App& parser, ExportOptions& options) {
                   "pixels of the picture per inch of the page, for .pdf, .ps and .eps")
       ->check(CLI::Range(1.0, 10000.0))
       ->capture_default_str();
+  parser
+      .add_option("--vtk-divisions", options.vtk.divisions,
+                  "quads per side of a patch in .vtp files")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
   parser.parse_complete_callback([&options] {
     if (options.svg.level != SvgLevel::inkscape || options.svg.size_limit == 0) return;
     throw CLI::ValidationError("--svg-size-limit",

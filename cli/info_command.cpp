@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "common_options.h"
+#include "output_files.h"
 #include "picture_input.h"
 #include "quadrille/document.h"
 
@@ -70,6 +71,17 @@ Json json_of(const Contents& c) {
           {"bounding_box", box_of(c)}};
 }
 
+/// The image of a file; what a file that is no .quad document does not tell of its storage is 0.
+StoredImage read_stored(const std::filesystem::path& path) {
+  if (ending_of(path) == ".quad") return load_document_and_storage(path);
+  StoredImage stored{import_image(path), {}};
+  stored.storage.file_bytes = std::filesystem::file_size(path);
+  stored.storage.layers.resize(stored.image.layers.size());
+  return stored;
+}
+
+bool is_quad(const DocumentStorage& storage) { return storage.version > 0; }
+
 double bytes_per_patch(const DocumentStorage& storage, const Contents& all) {
   return all.patches > 0 ? static_cast<double>(storage.file_bytes) / all.patches : 0;
 }
@@ -77,17 +89,17 @@ double bytes_per_patch(const DocumentStorage& storage, const Contents& all) {
 void print_json(const std::filesystem::path& path, const DocumentStorage& storage,
                 const VectorImage& image, const std::vector<Contents>& layers,
                 const Contents& all) {
-  Json json = {{"file", printable_name(path)}, {"bytes", storage.file_bytes},
-               {"version", storage.version},   {"width", image.width},
-               {"height", image.height},       {"opaque", image.opaque()}};
+  Json json = {{"file", printable_name(path)}, {"bytes", storage.file_bytes}};
+  if (is_quad(storage)) json["version"] = storage.version;
+  json.update({{"width", image.width}, {"height", image.height}, {"opaque", image.opaque()}});
   json.update(json_of(all));
   json["bytes_per_patch"] = bytes_per_patch(storage, all);
   json["layers"] = Json::array();
   for (std::size_t l = 0; l < layers.size(); ++l) {
     Json layer = {{"name", image.layers[l].name},
-                  {"encoding", name_of(storage.layers[l].encoding)},
-                  {"bytes", storage.layers[l].bytes},
-                  {"opaque", image.layers[l].patches.opaque}};
+                  {"encoding", name_of(storage.layers[l].encoding)}};
+    if (is_quad(storage)) layer["bytes"] = storage.layers[l].bytes;
+    layer["opaque"] = image.layers[l].patches.opaque;
     if (storage.layers[l].encoding == DocumentEncoding::quantized) {
       layer["position_bits"] = storage.layers[l].position_bits;
       layer["color_step"] = storage.layers[l].color_step;
@@ -132,8 +144,9 @@ std::string described(const Contents& c) {
 void print_text(const std::filesystem::path& path, const DocumentStorage& storage,
                 const VectorImage& image, const std::vector<Contents>& layers,
                 const Contents& all) {
-  print_line("file", fmt::format("{}, {} bytes, format version {}", printable_name(path),
-                                 storage.file_bytes, storage.version));
+  print_line("file", fmt::format("{}, {} bytes", printable_name(path), storage.file_bytes) +
+                         (is_quad(storage) ? fmt::format(", format version {}", storage.version)
+                                           : std::string()));
   print_line("picture", fmt::format("{:g} x {:g} pixels, {}", image.width, image.height,
                                     image.opaque() ? "opaque" : "with transparency"));
   print_line("contents", described(all));
@@ -155,7 +168,7 @@ void print_text(const std::filesystem::path& path, const DocumentStorage& storag
 }
 
 int run_info(const InfoRequest& request) {
-  const auto [image, storage] = load_document_and_storage(request.input);
+  const auto [image, storage] = read_stored(request.input);
   std::vector<Contents> layers;
   Contents all;
   for (const Layer& layer : image.layers) {
@@ -171,7 +184,7 @@ int run_info(const InfoRequest& request) {
 
 Action declare_info(CLI::App& parser) {
   const auto request = std::make_shared<InfoRequest>();
-  declare_input(parser, request->input, ".quad document");
+  declare_input(parser, request->input, "file of patches: .quad or .vtu");
   parser.add_flag("--json", request->json, "print one JSON object");
   return [request] { return run_info(*request); };
 }

@@ -20,23 +20,40 @@ namespace {
 struct InspectRequest {
   std::filesystem::path input;
   std::filesystem::path output;
-  std::string stage;
-  double scale = 0;  // 0: chosen by the picture's size
+  std::string stage;  // empty: all, for .vtm
+  double scale = 0;   // 0: chosen by the picture's size
   MeshOptions mesh;
   RunOptions run;
 };
 
-/// Enlarges small pictures until mesh lines and crosses can be told apart.
-double readable_scale(const Raster& picture) {
-  constexpr double kWishedSide = 1600;
-  return std::clamp(std::round(kWishedSide / std::max(picture.width, picture.height)), 1.0, 8.0);
+/// The raster formats and, where this build has it, .vtm.
+std::vector<std::string> inspect_endings() {
+  std::vector<std::string> endings = kRasterEndings;
+  const std::vector<std::string> all = export_endings();
+  if (std::ranges::find(all, ".vtm") != all.end()) endings.push_back(".vtm");
+  return endings;
+}
+
+int write_all_stages(const InspectRequest& request, const Raster& picture, Observer& observer) {
+  const ChosenOptions options = choose_options(request.mesh, picture, observer);
+  const auto [result, stages] =
+      vectorize_in_stages(picture, request.input, options.vectorize, observer);
+  write_outputs({result.image, {&picture, &stages}}, {request.output}, {}, observer);
+  return kSuccess;
 }
 
 int run_inspect(const InspectRequest& request) {
   constexpr double kFade = 0.55;
-  check_outputs({request.output}, request.input, kRasterEndings);
+  const bool all_stages = ending_of(request.output) == ".vtm";
+  if (all_stages != request.stage.empty()) {
+    throw UsageError(all_stages
+                         ? "a .vtm file holds every stage; leave out --stage"
+                         : "--stage is required, but for .vtm files, which hold every stage");
+  }
+  check_outputs({request.output}, request.input, inspect_endings());
   Observer observer(request.run.verbosity(), request.run.threads);
   const Raster picture = read_raster(request.input, observer);
+  if (all_stages) return write_all_stages(request, picture, observer);
   const ChosenOptions options = choose_options(request.mesh, picture, observer);
   const Quadrangulation stages = with_name_of(
       request.input, [&] { return quadrangulate(picture, options.vectorize, observer.context()); });
@@ -50,7 +67,9 @@ int run_inspect(const InspectRequest& request) {
   }
 
   const Raster drawing = observer.stage("draw", [&] {
-    Canvas canvas(picture, request.scale > 0 ? request.scale : readable_scale(picture), kFade);
+    Canvas canvas(picture,
+                  request.scale > 0 ? request.scale : readable_scale(picture.width, picture.height),
+                  kFade);
     for (const SceneLayer& layer : chosen->layers(stages, 1 / canvas.zoom())) {
       draw_layer(canvas, layer);
     }
@@ -66,16 +85,14 @@ int run_inspect(const InspectRequest& request) {
 Action declare_inspect(CLI::App& parser) {
   const auto request = std::make_shared<InspectRequest>();
   std::vector<std::string> names;
-  std::string explanation = "what to draw:";
+  std::string explanation = "what to draw; a .vtm file holds all of them:";
   for (const SceneStage& stage : scene_stages()) {
     names.push_back(stage.name);
     explanation += fmt::format("\n{} - {}", stage.name, stage.summary);
   }
   declare_input(parser, request->input, "picture");
   declare_output(parser, request->output);
-  parser.add_option("--stage", request->stage, explanation)
-      ->required()
-      ->check(CLI::IsMember(names));
+  parser.add_option("--stage", request->stage, explanation)->check(CLI::IsMember(names));
   parser
       .add_option("--scale", request->scale,
                   "drawing pixels per source pixel; about 1600 pixels a side when absent")

@@ -8,6 +8,8 @@
 #include <cctype>
 
 #include "quadrille/error.h"
+#include "quadrille/picture_layers.h"
+#include "quadrille/render.h"
 
 namespace quadrille::cli {
 namespace {
@@ -77,15 +79,26 @@ void check_outputs(const std::vector<fs::path>& outputs, const fs::path& input,
   }
 }
 
-void write_outputs(const VectorImage& image, const std::vector<fs::path>& outputs,
+void write_outputs(const OutputImage& output, const std::vector<fs::path>& paths,
                    ExportOptions options, Observer& observer) {
+  const auto& [image, origin] = output;
   if (const auto title = image.metadata.find("title"); title != image.metadata.end()) {
     options.svg.title = options.pdf.title = title->second;
   }
-  for (const fs::path& output : outputs) {
-    observer.stage("write " + ending_of(output),
-                   [&] { export_image(image, output, options, observer.context()); });
-    tell_written(output, observer);
+  for (const fs::path& path : paths) {
+    observer.stage("write " + ending_of(path), [&] {
+      const RunContext& context = observer.context();
+      if (ending_of(path) == ".vtm") {
+        export_scene(scene_of(image, origin, context), path, context);
+        return;
+      }
+      if (ending_of(path) == ".vtu" && origin.picture) {
+        const SceneLayer error = error_layer(*origin.picture, render(image, {}, context));
+        options.vtk.patch_errors = patch_errors(image, std::get<SceneGrid>(error.content));
+      }
+      export_image(image, path, options, context);
+    });
+    tell_written(path, observer);
   }
 }
 

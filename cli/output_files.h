@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "observer.h"
+#include "picture_scene.h"
 #include "quadrille/export.h"
 
 namespace quadrille::cli {
@@ -22,9 +23,16 @@ std::string ending_of(const std::filesystem::path& path);
 void check_outputs(const std::vector<std::filesystem::path>& outputs,
                    const std::filesystem::path& input, const std::vector<std::string>& endings);
 
+/// An image and what is known of how it was made.
+struct OutputImage {
+  const VectorImage& image;
+  Origin origin = {};
+};
+
 /// Writes the image to every output in turn, each as a stage of its own. Titles come from the
-/// image's metadata, so that a document exports to the same bytes as the run that made it.
-void write_outputs(const VectorImage& image, const std::vector<std::filesystem::path>& outputs,
+/// image's metadata, so that a document exports to the same bytes as the run that made it; only
+/// .vtu and .vtm hold more when the origin is known.
+void write_outputs(const OutputImage& output, const std::vector<std::filesystem::path>& paths,
                    ExportOptions options, Observer& observer);
 
 /// Tells the watcher about a finished file and its size.

@@ -1,9 +1,9 @@
 #include "picture_input.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "output_files.h"
-#include "quadrille/document.h"
 #include "quadrille/image_file.h"
 #include "quadrille/render.h"
 
@@ -20,17 +20,20 @@ void note_source(VectorImage& image, const fs::path& source) {
 
 }  // namespace
 
-bool is_document(const fs::path& path) { return ending_of(path) == ".quad"; }
+bool is_document(const fs::path& path) {
+  const std::vector<std::string> endings = import_endings();
+  return std::ranges::find(endings, ending_of(path)) != endings.end();
+}
 
 Raster read_raster(const fs::path& path, Observer& observer) {
   return observer.stage("read", [&] {
-    return is_document(path) ? render(load_document(path), {}, observer.context())
+    return is_document(path) ? render(import_image(path), {}, observer.context())
                              : load_image(path);
   });
 }
 
 VectorImage read_vector_image(const fs::path& path, const MeshOptions& mesh, Observer& observer) {
-  if (is_document(path)) return observer.stage("read", [&] { return load_document(path); });
+  if (is_document(path)) return observer.stage("read", [&] { return import_image(path); });
   const Raster picture = read_raster(path, observer);
   const ChosenOptions chosen = choose_options(mesh, picture, observer);
   return vectorize_picture(picture, path, chosen.vectorize, observer).image;
@@ -42,6 +45,15 @@ Vectorization vectorize_picture(const Raster& picture, const fs::path& source,
       with_name_of(source, [&] { return vectorize(picture, options, observer.context()); });
   note_source(result.image, source);
   return result;
+}
+
+StagedVectorization vectorize_in_stages(const Raster& picture, const fs::path& source,
+                                        const VectorizeOptions& options, Observer& observer) {
+  StagedVectorization staged;
+  staged.result = with_name_of(
+      source, [&] { return vectorize(picture, options, observer.context(), &staged.stages); });
+  note_source(staged.result.image, source);
+  return staged;
 }
 
 BoundedVectorization vectorize_picture_to_error(const Raster& picture, const fs::path& source,

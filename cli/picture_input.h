@@ -12,7 +12,7 @@
 
 namespace quadrille::cli {
 
-/// True for files that are read as `.quad` documents; all others are read as pictures.
+/// True for files of patches, see import_endings(); all others are read as pictures.
 bool is_document(const std::filesystem::path& path);
 
 /// A picture's pixels; a document is drawn at scale 1.
@@ -25,6 +25,14 @@ VectorImage read_vector_image(const std::filesystem::path& path, const MeshOptio
 /// Vectorizes a picture and notes in the metadata what the documents should remember of it.
 Vectorization vectorize_picture(const Raster& picture, const std::filesystem::path& source,
                                 const VectorizeOptions& options, Observer& observer);
+
+struct StagedVectorization {
+  Vectorization result;
+  Quadrangulation stages;
+};
+/// The same, and what the patches were made from.
+StagedVectorization vectorize_in_stages(const Raster& picture, const std::filesystem::path& source,
+                                        const VectorizeOptions& options, Observer& observer);
 
 /// The same for vectorize_to_error().
 BoundedVectorization vectorize_picture_to_error(const Raster& picture,

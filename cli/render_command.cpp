@@ -88,7 +88,8 @@ int run_render(const RenderRequest& request) {
 
 Action declare_render(CLI::App& parser) {
   const auto request = std::make_shared<RenderRequest>();
-  declare_input(parser, request->input, ".quad document, or a picture to vectorize first");
+  declare_input(parser, request->input,
+                "file of patches (.quad or .vtu), or a picture to vectorize first");
   declare_output(parser, request->output);
   CLI::Option* scale =
       parser.add_option("--scale", request->scale, "output pixels per source pixel")

@@ -1,8 +1,10 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "command.h"
 #include "common_options.h"
@@ -55,6 +57,22 @@ BoundedVectorization vectorize_within(const VectorizeRequest& request, const Ras
   return bounded;
 }
 
+struct Made {
+  BoundedVectorization bounded;
+  std::optional<Quadrangulation> stages;
+};
+
+/// Keeps the stages when an output shows them; the rounds of an error bound do not.
+Made make(const VectorizeRequest& request, const Raster& picture, const VectorizeOptions& options,
+          Observer& observer) {
+  if (request.max_error) return {vectorize_within(request, picture, options, observer), {}};
+  const bool shows_stages = std::ranges::any_of(
+      request.outputs, [](const fs::path& output) { return ending_of(output) == ".vtm"; });
+  if (!shows_stages) return {{vectorize_picture(picture, request.input, options, observer)}, {}};
+  StagedVectorization staged = vectorize_in_stages(picture, request.input, options, observer);
+  return {{std::move(staged.result)}, std::move(staged.stages)};
+}
+
 int run_vectorize(const VectorizeRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   check_outputs(request.outputs, request.input, export_endings());
@@ -66,12 +84,10 @@ int run_vectorize(const VectorizeRequest& request) {
   MeshOptions mesh = request.mesh;
   if (request.max_error) mesh.quads.reset();
   const ChosenOptions chosen = choose_options(mesh, picture, observer);
-  const BoundedVectorization bounded =
-      request.max_error ? vectorize_within(request, picture, chosen.vectorize, observer)
-                        : BoundedVectorization{vectorize_picture(picture, request.input,
-                                                                 chosen.vectorize, observer)};
+  const auto [bounded, stages] = make(request, picture, chosen.vectorize, observer);
   const Vectorization& result = bounded.result;
-  write_outputs(result.image, request.outputs, request.files, observer);
+  const Origin origin{&picture, stages ? &*stages : nullptr};
+  write_outputs({result.image, origin}, request.outputs, request.files, observer);
 
   if (request.report.empty() && request.run.verbosity() != Verbosity::verbose) return kSuccess;
   const Measurement measurement = measure(result.image, picture, observer);

@@ -1,7 +1,10 @@
 #include "quadrille/export.h"
 
+#include <memory>
+
 #include "ending.h"
 #include "quadrille/error.h"
+#include "quadrille/picture_layers.h"
 
 namespace quadrille {
 namespace {
@@ -28,6 +31,15 @@ void svg(const VectorImage& image, const std::filesystem::path& path, const Expo
 void postscript(const VectorImage& image, const std::filesystem::path& path,
                 const ExportOptions& options, const RunContext& context) {
   write_postscript(image, path, options.pdf, context);
+}
+#endif
+
+#ifdef QUADRILLE_HAS_VTK
+void vtm(const VectorImage& image, const std::filesystem::path& path, const ExportOptions&,
+         const RunContext& context) {
+  // The layers of a group share the image; here it outlives them.
+  const std::shared_ptr<const VectorImage> shared(std::shared_ptr<void>(), &image);
+  write_vtm({image.width, image.height, {picture_group(shared, nullptr, context)}}, path, context);
 }
 #endif
 
@@ -60,8 +72,23 @@ const Format kFormats[] = {
     {".vtu",
      [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
         const RunContext& context) { write_vtu(image, path, options.vtk, context); }},
+    {".vtp",
+     [](const VectorImage& image, const std::filesystem::path& path, const ExportOptions& options,
+        const RunContext& context) { write_vtp(image, path, options.vtk, context); }},
+    {".vtm", vtm},
 #endif
 };
+
+[[noreturn]] void refuse_ending(const std::filesystem::path& path, const std::string& purpose,
+                                const std::vector<std::string>& endings) {
+  const std::string ending = lower_case_ending(path);
+  std::string known;
+  for (const std::string& each : endings) known += (known.empty() ? "" : ", ") + each;
+  throw Error(ErrorCode::unsupported_format,
+              "cannot " + purpose + " '" + path.string() + "': " +
+                  (ending.empty() ? "it has no file ending" : "unknown file ending " + ending) +
+                  "; use one of " + known);
+}
 
 }  // namespace
 
@@ -74,16 +101,37 @@ std::vector<std::string> export_endings() {
 void export_image(const VectorImage& image, const std::filesystem::path& path,
                   const ExportOptions& options, const RunContext& context) {
   const std::string ending = lower_case_ending(path);
-  std::string known;
   for (const Format& format : kFormats) {
     if (ending == format.ending) return format.write(image, path, options, context);
-    known += known.empty() ? "" : ", ";
-    known += format.ending;
   }
+  refuse_ending(path, "write", export_endings());
+}
+
+std::vector<std::string> import_endings() {
+#ifdef QUADRILLE_HAS_VTK
+  return {".quad", ".vtu"};
+#else
+  return {".quad"};
+#endif
+}
+
+VectorImage import_image(const std::filesystem::path& path) {
+  const std::string ending = lower_case_ending(path);
+  if (ending == ".quad") return load_document(path);
+#ifdef QUADRILLE_HAS_VTK
+  if (ending == ".vtu") return read_vtu(path);
+#endif
+  refuse_ending(path, "read patches from", import_endings());
+}
+
+void export_scene([[maybe_unused]] const Scene& scene, const std::filesystem::path& path,
+                  [[maybe_unused]] const RunContext& context) {
+#ifdef QUADRILLE_HAS_VTK
+  if (lower_case_ending(path) == ".vtm") return write_vtm(scene, path, context);
+#endif
   throw Error(ErrorCode::unsupported_format,
-              "cannot write '" + path.string() + "': " +
-                  (ending.empty() ? "it has no file ending" : "unknown file ending " + ending) +
-                  "; use one of " + known);
+              "cannot write '" + path.string() +
+                  "': scenes are written as .vtm, in builds with VTK; use that ending");
 }
 
 }  // namespace quadrille

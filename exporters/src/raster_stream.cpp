@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "companion_folder.h"
 #include "ending.h"
 #include "quadrille/atomic_file.h"
 #include "quadrille/error.h"
@@ -63,11 +64,6 @@ int save_tiff(VipsImage* image, const char* path, const RasterFileOptions&) {
                        tile, "tile_width", 256, "tile_height", 256, nullptr);
 }
 
-std::filesystem::path tiles_of(std::filesystem::path pyramid) {
-  pyramid.replace_extension();
-  return pyramid += "_files";
-}
-
 int save_dzi(VipsImage* image, const char* path, const RasterFileOptions& options) {
   const std::string base = std::filesystem::path(path).replace_extension().string();
   const bool alpha = vips_image_hasalpha(image);
@@ -76,40 +72,12 @@ int save_dzi(VipsImage* image, const char* path, const RasterFileOptions& option
                      nullptr);
 }
 
-/// Moves a finished pyramid's folder of tiles to its place, or removes an unfinished one's.
-class PyramidTiles {
- public:
-  PyramidTiles(const std::filesystem::path& temporary, const std::filesystem::path& target)
-      : from_(tiles_of(temporary)), to_(tiles_of(target)) {
-    if (std::filesystem::exists(to_) && !std::filesystem::exists(target)) {
-      throw Error(
-          ErrorCode::io_failure,
-          "cannot write '" + target.string() + "': the folder '" + to_.string() +
-              "' is there already and belongs to no pyramid; move it or choose another name");
-    }
-  }
-  ~PyramidTiles() {
-    std::error_code ignored;
-    std::filesystem::remove_all(from_, ignored);
-  }
-  PyramidTiles(const PyramidTiles&) = delete;
-  PyramidTiles& operator=(const PyramidTiles&) = delete;
-
-  void keep() const {
-    std::error_code error;
-    // Holds the date, which no two runs share.
-    std::filesystem::remove(from_ / "vips-properties.xml", error);
-    if (!error) std::filesystem::remove_all(to_, error);
-    if (!error) std::filesystem::rename(from_, to_, error);
-    if (error) {
-      throw Error(ErrorCode::io_failure, "cannot write '" + to_.string() + "': " + error.message() +
-                                             "; choose another path");
-    }
-  }
-
- private:
-  std::filesystem::path from_, to_;
-};
+void keep_tiles(const CompanionFolder& tiles) {
+  std::error_code ignored;
+  // Holds the date, which no two runs share.
+  std::filesystem::remove(tiles.temporary() / "vips-properties.xml", ignored);
+  tiles.keep();
+}
 
 constexpr RasterFormat kFormats[] = {
     {{".png", ".png"}, "PNG", true, true, 10'000'000, save_png},
@@ -261,13 +229,13 @@ void write_stream(const RasterStream& stream, const std::filesystem::path& path,
                     {options.bits == 8 ? SampleType::uint8 : SampleType::uint16,
                      stream.has_alpha && format->has_alpha ? 4 : 3},
                     nullptr};
-    std::optional<PyramidTiles> tiles;
-    if (format->save == save_dzi) tiles.emplace(temporary, path);
+    std::optional<CompanionFolder> tiles;
+    if (format->save == save_dzi) tiles.emplace(temporary, path, "_files");
     const VipsImagePtr image = as_vips_image(drawing);
     const bool saved = image && format->save(image.get(), temporary.c_str(), options) == 0;
     if (drawing.failure) std::rethrow_exception(drawing.failure);
     if (saved) {
-      if (tiles) tiles->keep();
+      if (tiles) keep_tiles(*tiles);
       return;
     }
     throw_failure(path, temporary);

@@ -18,9 +18,10 @@ constexpr int kProgressStep = 4096;  // patches between two reports
 class Surface {
  public:
   Surface(const VectorImage& image, int divisions)
-      : n_(divisions), opaque_(std::ranges::all_of(image.layers, [](const Layer& layer) {
-          return layer.patches.opaque;
-        })) {
+      : n_(divisions),
+        stacked_(image.layers.size() > 1),
+        opaque_(std::ranges::all_of(image.layers,
+                                    [](const Layer& layer) { return layer.patches.opaque; })) {
     shapes_.cell = SceneShapes::Cell::polygon;
     const std::size_t cells = static_cast<std::size_t>(image.patch_count()) * n_ * n_;
     if (cells > std::numeric_limits<int>::max() / 8) {
@@ -88,6 +89,7 @@ class Surface {
 
   int add_point(const Vector2d& position, const FergusonPatch& patch, int i, int j) {
     shapes_.points.push_back(layer_->transform * position);
+    if (stacked_) shapes_.heights.push_back(static_cast<float>(layer_index_));
     const Color c = patch.color.at(parameter(i), parameter(j));
     color_.insert(color_.end(), c.data(), c.data() + (opaque_ ? 3 : 4));
     const float alpha = opaque_ ? 1 : std::clamp(c[3], 0.0f, 1.0f);
@@ -133,7 +135,7 @@ class Surface {
   }
 
   const int n_;
-  const bool opaque_;
+  const bool stacked_, opaque_;
   const Layer* layer_ = nullptr;
   int layer_index_ = 0;
   bool mirrored_ = false;

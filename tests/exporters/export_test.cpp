@@ -42,6 +42,7 @@ TEST(Export, EveryEndingMakesAFile) {
       EXPECT_GT(fs::file_size(path), 0u) << ending;
       fs::remove(path);
       fs::remove_all(output("every_files"));  // the tiles of .dzi
+      fs::remove_all(output("every_vtm"));    // the pieces of .vtm
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "quadrille/error.h"
 #include "quadrille/export.h"
 #include "support/programs.h"
+#include "support/python_with_vtk.h"
 #include "support/random_patches.h"
 #include "vtk_display_colors.h"
 #include "vtk_points.h"
@@ -33,17 +34,6 @@ std::string file_bytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// VTK's Python module belongs to the distribution's interpreter, which need not be the first one.
-const std::string& python_with_vtk() {
-  static const std::string found = [] {
-    for (const std::string python : {"python3", "/usr/bin/python3"}) {
-      if (test::run({python, "-c", "import vtkmodules.vtkIOXML"}) == 0) return python;
-    }
-    return std::string();
-  }();
-  return found;
-}
-
 VectorImage random_picture(int columns, int rows, double width, double height, bool opaque) {
   PatchMesh patches = testing::random_patches(columns, rows, width, height, 11);
   testing::set_random_colors(patches, 12, opaque);
@@ -53,13 +43,13 @@ VectorImage random_picture(int columns, int rows, double width, double height, b
 class VtkFile : public ::testing::Test {
  protected:
   /// Writes the picture and reads it back with VTK.
-  json read_back(const VectorImage& image) {
+  json read_back(const VectorImage& image, const VtkOptions& options = {}) {
     const auto path = test::scratch_dir() / "picture.vtu";
-    write_vtu(image, path);
-    EXPECT_FALSE(python_with_vtk().empty()) << "no python3 with VTK; install python3-vtk9";
+    write_vtu(image, path, options);
+    EXPECT_FALSE(test::python_with_vtk().empty()) << "no python3 with VTK; install python3-vtk9";
     const std::string script = QUADRILLE_SOURCE_DIR "/tests/programs/read_vtu.py";
     std::string output;
-    const int status = test::run({python_with_vtk(), script, path.string()}, &output);
+    const int status = test::run({test::python_with_vtk(), script, path.string()}, &output);
     EXPECT_EQ(status, 0) << output;
     return status == 0 ? json::parse(output) : json();
   }
@@ -154,7 +144,9 @@ TEST_F(VtkFile, ShowsBytesAndPatchQuality) {
   EXPECT_EQ(cells["patch"]["values"], json::parse("[[0.0],[1.0],[2.0],[3.0]]"));
   EXPECT_EQ(cells["layer"]["values"], json::parse("[[0.0],[0.0],[0.0],[0.0]]"));
   for (const json& quality : cells["scaled_jacobian"]["values"]) EXPECT_EQ(quality[0], 1.0);
-  EXPECT_EQ(file["field_arrays"]["picture_size"]["values"], json::parse("[[6.0],[4.0]]"));
+  EXPECT_EQ(cells["region"]["values"], json::parse("[[0.0],[0.0],[0.0],[0.0]]"));
+  EXPECT_FALSE(cells.contains("fitting_error"));
+  EXPECT_EQ(file["field_arrays"]["picture_size"]["values"], json::parse("[[6.0,4.0]]"));
   EXPECT_FALSE(file["field_arrays"]["conventions"]["values"][0].get<std::string>().empty());
 }
 
@@ -227,6 +219,34 @@ TEST_F(VtkFile, StacksTransformedLayersAndKeepsMirroredOnesCounterClockwise) {
     EXPECT_GT(area, 0) << q;
     EXPECT_EQ(file["cell_arrays"]["layer"]["values"][q][0], q < 4 ? 0.0 : 1.0);
   }
+}
+
+TEST_F(VtkFile, TellsTheValenceAtTheCornersOfItsCells) {
+  for (const bool mirrored : {false, true}) {
+    VectorImage image = random_picture(3, 3, 30, 30, true);
+    if (mirrored) {
+      image.layers[0].transform = Eigen::Translation2d(30, 0) * Eigen::Scaling(-1.0, 1.0);
+    }
+    const json file = read_back(image);
+    const auto on_side = [](double x) { return x < 1e-9 || x > 30 - 1e-9; };
+    for (std::size_t c = 0; c < file["cells"].size(); ++c) {
+      for (int k = 0; k < 4; ++k) {
+        const json& p = file["points"][file["cells"][c][k].get<int>()];
+        const int sides = on_side(p[0]) + on_side(p[1]);
+        EXPECT_EQ(file["cell_arrays"]["valence"]["values"][c][k], 4 - sides);
+      }
+    }
+  }
+}
+
+TEST_F(VtkFile, HoldsTheErrorsThatItIsGiven) {
+  VtkOptions options;
+  options.patch_errors = {1.5f, 2.25f};
+  const VectorImage image = random_picture(2, 1, 20, 10, true);
+  const json file = read_back(image, options);
+  EXPECT_EQ(file["cell_arrays"]["fitting_error"]["values"], json::parse("[[1.5],[2.25]]"));
+  options.patch_errors.pop_back();
+  EXPECT_THROW(write_vtu(image, test::scratch_dir() / "wrong.vtu", options), Error);
 }
 
 TEST(Vtk, WritesTheSameBytesAgain) {

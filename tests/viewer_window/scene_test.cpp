@@ -114,7 +114,7 @@ TEST_P(EachLayer, ItsKeyChangesPixelsWhereItHasSomethingAndNowhereElse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Layers, EachLayer, ::testing::Range(0, kLayerCount), [](const auto& layer) {
-  std::string name = layer_layers()[info.param].name;
+  std::string name = layer_infos()[layer.param].name;
   std::ranges::replace(name, '-', '_');
   return name;
 });

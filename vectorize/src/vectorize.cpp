@@ -76,11 +76,11 @@ int tear_chains(QuadMesh& mesh, const Raster& shown, const VectorizeOptions& opt
 }  // namespace
 
 Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
-                        const RunContext& context) {
-  std::vector<StageReport> stages;
+                        const RunContext& context, Quadrangulation* stages) {
+  std::vector<StageReport> reports;
   RunContext recorded = context;
   recorded.on_stage = [&](const StageReport& stage) {
-    stages.push_back(stage);
+    reports.push_back(stage);
     if (context.on_stage) context.on_stage(stage);
   };
 
@@ -94,16 +94,17 @@ Vectorization vectorize(const Raster& picture, const VectorizeOptions& options,
   StageClock clock(recorded);
   const int chains = tear_chains(quads.mesh, shown, options, recorded);
   clock.finish("tears");
-  FittedPatches fitted =
-      fitted_patches(std::move(quads.mesh), shown, options.fit, options.optimize, recorded);
+  FittedPatches fitted = fitted_patches(stages ? quads.mesh : std::move(quads.mesh), shown,
+                                        options.fit, options.optimize, recorded);
 
   Vectorization result;
   result.report = describe(picture, quads, fitted.patches);
   result.report.chains = chains;
   result.report.fit = fitted.fit;
   result.report.optimize = std::move(fitted.optimized);
-  result.report.stages = std::move(stages);
+  result.report.stages = std::move(reports);
   result.image = single_layer(std::move(fitted.patches), picture.width, picture.height);
+  if (stages) *stages = std::move(quads);
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "quadrille/document.h"
 #include "quadrille/run_context.h"
+#include "quadrille/scene_layer.h"
 #include "quadrille/vector_image.h"
 
 namespace quadrille {
@@ -56,7 +57,13 @@ struct GltfOptions {
   double texels_per_pixel = 2;
 };
 
-struct VtkOptions {};
+struct VtkOptions {
+  /// Quads per side of a patch in the tessellated surface of .vtp, 1 to 64.
+  int divisions = 4;
+  /// Fitting error per patch, layer after layer, for .vtu; empty when it is not known. See
+  /// patch_errors().
+  std::vector<float> patch_errors;
+};
 
 struct ExportOptions {
   RasterFileOptions raster;
@@ -94,17 +101,51 @@ void write_glb(const VectorImage& image, const std::filesystem::path& path,
 /// One Bezier quadrilateral (VTK cell type 77) per patch, placed as in write_glb(). Point arrays:
 /// "color" (float RGB) or, with transparency, "color_premultiplied" (float RGBA) are the exact
 /// control values; "rgba" (bytes, straight) is what plain viewers show, approximate where control
-/// values leave 0..1. Cell arrays: "patch", "layer", "scaled_jacobian".
+/// values leave 0..1. Cell arrays: "patch", "layer", "region", "scaled_jacobian", "valence" (four)
+/// and, when it is known, "fitting_error"; and those of read_vtu(). The meaning of each array is
+/// its information key vtkDataArray::UNITS_LABEL. Throws Error{invalid_argument} for a wrong number
+/// of fitting errors.
 void write_vtu(const VectorImage& image, const std::filesystem::path& path,
                const VtkOptions& options = {}, const RunContext& context = {});
+/// surface_layer() as poly data, placed as in write_glb().
+void write_vtp(const VectorImage& image, const std::filesystem::path& path,
+               const VtkOptions& options = {}, const RunContext& context = {});
+/// A multi-block data set with a block per group and, in it, one per layer, named like them. The
+/// pieces lie beside it in a folder that is named like the file with "_vtm" in place of the ending;
+/// the file itself is written last. y is up, the picture's bottom left corner at the origin.
+void write_vtm(const Scene& scene, const std::filesystem::path& path,
+               const RunContext& context = {});
+
+/// Reads a file that write_vtu() wrote, perhaps stored again by another program that kept all
+/// arrays, as raw appended data: the same image bit for bit. Field arrays "picture_size",
+/// "layer_names", "metadata" and, per layer L, "layerL_transform", "_opaque", "_vertices",
+/// "_edge_flags", "_edge_tangents" and
+/// "_wedges"; cell arrays "layer", "corner_vertices" and "corner_wedges". Everything is verified as
+/// in a .quad document, and the control points must be those of the patches. Throws
+/// Error{unsupported_format} for a foreign file, Error{io_failure} for a missing or damaged one.
+VectorImage read_vtu(const std::filesystem::path& path);
+
+/// File endings, with the dot and in lower case, of files with patches that import_image() reads in
+/// this build: .quad and .vtu.
+std::vector<std::string> import_endings();
+
+/// load_document() or read_vtu() by the ending of the path. Throws Error{unsupported_format} for
+/// any other ending, and as these do.
+VectorImage import_image(const std::filesystem::path& path);
 
 /// File endings, with the dot and in lower case, that export_image() writes in this build.
 std::vector<std::string> export_endings();
 
 /// Chooses the writer by the ending of the path: .quad, .png, .jpg, .jpeg, .webp, .tif, .tiff,
-/// .dzi, .svg, .svgz, .pdf, .ps, .eps, .glb, .vtu. Throws Error{unsupported_format} for any other,
+/// .dzi, .svg, .svgz, .pdf, .ps, .eps, .glb, .vtu, .vtp, .vtm (picture_group() without a source).
+/// Throws Error{unsupported_format} for any other,
 /// naming those it can write.
 void export_image(const VectorImage& image, const std::filesystem::path& path,
                   const ExportOptions& options = {}, const RunContext& context = {});
+
+/// write_vtm(). Throws Error{unsupported_format} for another ending, and for .vtm in a build
+/// without VTK.
+void export_scene(const Scene& scene, const std::filesystem::path& path,
+                  const RunContext& context = {});
 
 }  // namespace quadrille

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <string>
 #include <vector>
 
 #include "quadrille/bicubic.h"
@@ -51,6 +52,11 @@ struct PatchMesh {
 
   int patch_count() const { return mesh.quad_count(); }
 };
+
+/// Where a PatchMesh from elsewhere contradicts itself, as a phrase such as "the wedges contradict
+/// the tears": sizes of its arrays, wedges out of range or unused, wedges that do not divide the
+/// corners of each vertex as its tears do, numbers that are not finite. Empty when it does not.
+std::string contradiction_in(const PatchMesh& patches);
 
 /// A PatchMesh over the mesh with straight edges (tangents equal to the chords) and black, opaque
 /// wedges numbered by vertex and then by fan order; a vertex is divided at its tear edges.

@@ -49,6 +49,7 @@ struct SceneShapes {
   };
   Cell cell = Cell::point;
   std::vector<Eigen::Vector2d> points;
+  std::vector<float> heights;         ///< per point, above the picture's plane; empty for all 0
   std::vector<int> cell_points;       ///< indices of points, cell after cell
   std::vector<int> cell_begin = {0};  ///< where cell c begins in cell_points; #C + 1
   std::vector<SceneArray> point_arrays;
@@ -105,6 +106,12 @@ struct SceneGroup {
   std::string name;  ///< as of a layer
   std::string summary;
   std::vector<SceneLayer> layers;
+};
+
+/// All that is known of a picture.
+struct Scene {
+  double width = 0, height = 0;  ///< of the picture, pixels
+  std::vector<SceneGroup> groups;
 };
 
 }  // namespace quadrille

@@ -118,8 +118,9 @@ void refine_by_error(Quadrangulation& quads, const Raster& picture, const Raster
                      const VectorizeOptions& options, const RunContext& context = {});
 
 /// The whole way: quadrangulate, then the steps of fit_patches() and optimize_vertices(), each
-/// reported as a stage. Throws as these do.
+/// reported as a stage. When `stages` is not null, it receives what the patches were made from, the
+/// mesh with its tears and its vertices before they are moved. Throws as these do.
 Vectorization vectorize(const Raster& picture, const VectorizeOptions& options = {},
-                        const RunContext& context = {});
+                        const RunContext& context = {}, Quadrangulation* stages = nullptr);
 
 }  // namespace quadrille

@@ -1,0 +1,255 @@
+#include "vtk_array_file.h"
+
+#include <expat.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "quadrille/error.h"
+
+namespace quadrille {
+namespace {
+
+/// zlib shrinks to no less than 1/1032.
+constexpr unsigned long long kMostGrowth = 1032;
+constexpr unsigned long long kLargestArray = 1ull << 32;  // bytes; ten million patches take less
+
+std::string read_whole(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string content{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad() || std::filesystem::is_directory(path)) {
+    throw Error(ErrorCode::io_failure, "cannot read '" + path.string() +
+                                           "': there is no such file, or it may not be read; check "
+                                           "the path");
+  }
+  return content;
+}
+
+}  // namespace
+
+/// Collects what the XML part of the file says.
+class VtkArrayFile::HeaderParser {
+ public:
+  explicit HeaderParser(VtkArrayFile& file) : file_(file) {}
+
+  void parse(std::string_view header) {
+    const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
+        XML_ParserCreate(nullptr), XML_ParserFree);
+    XML_SetUserData(parser.get(), this);
+    XML_SetElementHandler(parser.get(), start, end);
+    constexpr std::string_view kEnd = "</VTKFile>";  // instead of the data, which are no XML
+    const bool well_formed =
+        XML_Parse(parser.get(), header.data(), static_cast<int>(header.size()), 0) ==
+            XML_STATUS_OK &&
+        XML_Parse(parser.get(), kEnd.data(), static_cast<int>(kEnd.size()), 1) == XML_STATUS_OK;
+    if (!failure_.empty()) file_.refuse(failure_);
+    if (!well_formed) file_.refuse("its header is no XML");
+    if (pieces_ != 1) file_.refuse("it has " + std::to_string(pieces_) + " pieces instead of 1");
+  }
+
+  std::string file_type, byte_order, compressor, header_type;
+
+ private:
+  using Attributes = std::map<std::string, std::string>;
+
+  // No exception may pass through C code.
+  static void start(void* self, const XML_Char* name, const XML_Char** attributes) {
+    auto& parser = *static_cast<HeaderParser*>(self);
+    Attributes map;
+    for (; *attributes; attributes += 2) map[attributes[0]] = attributes[1];
+    parser.open(name, map);
+    parser.path_.emplace_back(name);
+  }
+  static void end(void* self, const XML_Char*) {
+    static_cast<HeaderParser*>(self)->path_.pop_back();
+  }
+
+  void open(const std::string& name, Attributes& attributes) {
+    if (path_.empty()) {
+      file_type = attributes["type"];
+      byte_order = attributes["byte_order"];
+      compressor = attributes["compressor"];
+      header_type = attributes["header_type"];
+    } else if (name == "Piece") {
+      ++pieces_;
+      file_.point_count_ = number(attributes["NumberOfPoints"]);
+      file_.cell_count_ = number(attributes["NumberOfCells"]);
+    } else if (name == "DataArray" || name == "Array") {
+      add_array(attributes);
+    }
+  }
+
+  void add_array(Attributes& attributes) {
+    const std::string& parent = path_.back();
+    Part part = Part::field;
+    Array array{attributes["type"], attributes["format"]};
+    if (parent == "FieldData") {
+      array.tuples = number(attributes["NumberOfTuples"]);
+    } else if (parent == "CellData") {
+      part = Part::cell;
+      array.tuples = file_.cell_count_;
+    } else if (parent == "Points") {
+      part = Part::point;
+      attributes["Name"] = kCoordinates;
+      array.tuples = file_.point_count_;
+    } else {
+      return;  // colours and connectivity follow from the patches
+    }
+    if (attributes.contains("NumberOfComponents")) {
+      array.components = number(attributes["NumberOfComponents"]);
+    }
+    if (array.format == "appended") array.offset = number(attributes["offset"]);
+    file_.arrays_[{part, attributes["Name"]}] = array;
+  }
+
+  unsigned long long number(const std::string& text) {
+    unsigned long long value = 0;
+    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || last != text.data() + text.size() ||
+        value > kMostGrowth * file_.file_.size()) {
+      failure_ = "a number in its header is impossible";
+      return 0;
+    }
+    return value;
+  }
+
+  VtkArrayFile& file_;
+  std::vector<std::string> path_;
+  std::string failure_;
+  int pieces_ = 0;
+};
+
+VtkArrayFile::VtkArrayFile(const std::filesystem::path& path)
+    : name_(path.string()), file_(read_whole(path)) {
+  constexpr std::size_t kStart = 4096;  // where a file tells what it is
+  const std::string_view start = std::string_view(file_).substr(0, kStart);
+  if (start.find("<VTKFile") == start.npos || start.find("UnstructuredGrid") == start.npos) {
+    throw Error(ErrorCode::unsupported_format,
+                "'" + name_ + "' is no .vtu file; give one that Quadrille wrote");
+  }
+  if (file_.rfind("</VTKFile>") == file_.npos) refuse("it is cut off");
+  const std::size_t appended = file_.find("<AppendedData");
+  if (appended == file_.npos) {
+    refuse_form("it has no appended data");
+  }
+  HeaderParser parser(*this);
+  parser.parse(std::string_view(file_).substr(0, appended));
+  if (parser.file_type != "UnstructuredGrid") refuse_form("it is no unstructured grid");
+  if (parser.byte_order != "LittleEndian") refuse_form("its bytes are in another order");
+  if (!parser.compressor.empty() && parser.compressor != "vtkZLibDataCompressor") {
+    refuse_form("it is not compressed by zlib");
+  }
+  compressed_ = !parser.compressor.empty();
+  word_bytes_ = parser.header_type == "UInt64" ? 8 : 4;
+  const std::size_t tag_end = file_.find('>', appended);
+  if (tag_end == file_.npos) refuse("it is cut off");
+  if (file_.substr(appended, tag_end - appended).find("\"raw\"") == std::string::npos) {
+    refuse_form("its appended data are encoded");
+  }
+  const std::size_t mark = file_.find('_', tag_end);
+  if (mark == file_.npos) refuse("it is cut off");
+  data_begin_ = mark + 1;
+}
+
+void VtkArrayFile::refuse(const std::string& why) const {
+  throw Error(ErrorCode::io_failure, "'" + name_ + "' is damaged: " + why + "; export it again");
+}
+
+void VtkArrayFile::refuse_content(const std::string& holds) const {
+  throw Error(ErrorCode::unsupported_format,
+              "'" + name_ + "' holds " + holds + "; give a .vtu file that it wrote");
+}
+
+void VtkArrayFile::refuse_form(const std::string& why) const {
+  throw Error(ErrorCode::unsupported_format,
+              "'" + name_ + "' cannot be read: " + why +
+                  "; store it with raw appended data, plain or compressed by zlib");
+}
+
+std::vector<std::string> VtkArrayFile::texts(const std::string& name) const {
+  const auto found = arrays_.find({Part::field, name});
+  if (found == arrays_.end() || found->second.tuples == 0) return {};
+  if (found->second.type != "String") refuse("the array '" + name + "' holds no texts");
+  const std::vector<std::byte> bytes = content_of(found->second);
+  std::vector<std::string> list(1);
+  for (const std::byte b : bytes) {
+    if (b == std::byte{0}) {
+      list.emplace_back();
+    } else {
+      list.back() += static_cast<char>(b);
+    }
+  }
+  if (!list.back().empty() || list.size() != found->second.tuples + 1) {
+    refuse("the array '" + name + "' has a wrong size");
+  }
+  list.pop_back();
+  return list;
+}
+
+std::vector<std::byte> VtkArrayFile::numbers(Part part, const std::string& name, const char* type,
+                                             std::size_t components,
+                                             std::size_t tuple_bytes) const {
+  const auto found = arrays_.find({part, name});
+  if (found == arrays_.end() || found->second.tuples == 0) return {};
+  const Array& array = found->second;
+  if (array.type != type || array.components != components) {
+    refuse("the array '" + name + "' has a wrong type");
+  }
+  std::vector<std::byte> bytes = content_of(array);
+  if (bytes.size() != array.tuples * tuple_bytes) {
+    refuse("the array '" + name + "' has a wrong size");
+  }
+  return bytes;
+}
+
+unsigned long long VtkArrayFile::word(std::size_t at) const {
+  if (at > file_.size() || file_.size() - at < word_bytes_) refuse("it is cut off");
+  std::uint64_t wide = 0;
+  std::memcpy(&wide, file_.data() + at, word_bytes_);  // little endian, as the machine
+  return wide;
+}
+
+std::vector<std::byte> VtkArrayFile::content_of(const Array& array) const {
+  if (array.format != "appended") refuse_form("an array is not appended");
+  const std::size_t at = data_begin_ + array.offset;  // both below 2^60
+  if (compressed_) return inflated(at);
+  const unsigned long long size = word(at);
+  if (size > file_.size() - at - word_bytes_) refuse("it is cut off");
+  const auto* first = reinterpret_cast<const std::byte*>(file_.data()) + at + word_bytes_;
+  return {first, first + size};
+}
+
+/// Words for the number of blocks, the bytes of each and of a last partial one, and their
+/// compressed sizes; then the blocks.
+std::vector<std::byte> VtkArrayFile::inflated(std::size_t at) const {
+  const unsigned long long blocks = word(at);
+  if (blocks == 0) return {};
+  const unsigned long long size = word(at + word_bytes_), last = word(at + 2 * word_bytes_);
+  const unsigned long long most = std::min(kMostGrowth * file_.size(), kLargestArray);
+  if (blocks > file_.size() / word_bytes_ || size > most / blocks || last > size) {
+    refuse("a block's size is impossible");
+  }
+  const unsigned long long total = size * (blocks - (last > 0)) + last;
+  std::vector<std::byte> bytes(total);
+  std::size_t from = at + (3 + blocks) * word_bytes_, to = 0;
+  for (unsigned long long b = 0; b < blocks; ++b) {
+    const unsigned long long packed = word(at + (3 + b) * word_bytes_);
+    if (from > file_.size() || packed > file_.size() - from) refuse("it is cut off");
+    const unsigned long long wanted = b + 1 == blocks && last > 0 ? last : size;
+    uLongf length = wanted;
+    if (uncompress(reinterpret_cast<Bytef*>(bytes.data()) + to, &length,
+                   reinterpret_cast<const Bytef*>(file_.data()) + from, packed) != Z_OK ||
+        length != wanted) {
+      refuse("a compressed block is broken");
+    }
+    from += packed;
+    to += wanted;
+  }
+  return bytes;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,211 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "quadrille/error.h"
+#include "quadrille/export.h"
+#include "quadrille/picture_layers.h"
+#include "quadrille/render.h"
+#include "quadrille/stage_layers.h"
+#include "support/programs.h"
+#include "support/python_with_vtk.h"
+#include "support/random_patches.h"
+
+namespace quadrille {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+fs::path fresh_folder(const std::string& name) {
+  const fs::path folder = test::scratch_dir() / ("scene_" + name);
+  fs::remove_all(folder);
+  fs::create_directory(folder);
+  return folder;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename());
+  std::ranges::sort(names);
+  return names;
+}
+
+VectorImage random_picture() {
+  PatchMesh patches = testing::random_patches(4, 3, 40, 30, 5);
+  testing::set_random_colors(patches, 6);
+  return single_layer(std::move(patches), 40, 30);
+}
+
+Scene scene_with_all_stages() {
+  Raster picture(40, 30, 3);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      for (int c = 0; c < 3; ++c) picture.pixel(x, y)[c] = x + y < 30 ? 0.2f : 0.8f;
+    }
+  }
+  VectorizeOptions options;
+  options.quads = 60;
+  Quadrangulation stages;
+  auto image = std::make_shared<const VectorImage>(vectorize(picture, options, {}, &stages).image);
+  Scene scene{40, 30, {picture_group(image, &picture)}};
+  for (const SceneStage& stage : scene_stages()) {
+    scene.groups.push_back({stage.name, stage.summary, stage.layers(stages, 0.25)});
+  }
+  return scene;
+}
+
+json blocks_of(const fs::path& path) {
+  std::string output;
+  const std::string script = QUADRILLE_SOURCE_DIR "/tests/programs/read_vtm.py";
+  const int status = test::run({test::python_with_vtk(), script, path.string()}, &output);
+  EXPECT_EQ(status, 0) << output;
+  return status == 0 ? json::parse(output) : json();
+}
+
+TEST(VtkScene, OpensWithAllLayersAndTheirArrays) {
+  const fs::path folder = fresh_folder("layers");
+  const Scene scene = scene_with_all_stages();
+  write_vtm(scene, folder / "a.vtm");
+  const json blocks = blocks_of(folder / "a.vtm");
+  std::size_t count = 0;
+  for (const SceneGroup& group : scene.groups) {
+    for (const SceneLayer& layer : group.layers) {
+      SCOPED_TRACE(group.name + "/" + layer.name);
+      ++count;
+      ASSERT_TRUE(blocks.contains(group.name + "/" + layer.name));
+      const json& block = blocks[group.name + "/" + layer.name];
+      const auto expect_arrays = [&](const std::vector<SceneArray>& arrays, const char* where) {
+        for (const SceneArray& array : arrays) {
+          EXPECT_THAT(block[where], ::testing::Contains(array.name));
+          EXPECT_EQ(block["meanings"][array.name], array.meaning);
+        }
+      };
+      EXPECT_THAT(block["field_arrays"], ::testing::Contains("summary"));
+      if (const auto* grid = std::get_if<SceneGrid>(&layer.content)) {
+        EXPECT_EQ(block["class"], "vtkImageData");
+        EXPECT_EQ(block["cells"], grid->width * grid->height);
+        const std::vector<double> bounds = block["bounds"];
+        EXPECT_THAT(bounds, ::testing::Pointwise(::testing::DoubleNear(1e-9),
+                                                 std::vector<double>{0, 40, 0, 30, 0, 0}));
+        expect_arrays(grid->arrays, "cell_arrays");
+      } else if (const auto* shapes = std::get_if<SceneShapes>(&layer.content)) {
+        EXPECT_EQ(block["class"], "vtkPolyData");
+        EXPECT_EQ(block["points"], shapes->points.size());
+        EXPECT_EQ(block["cells"], shapes->cell == SceneShapes::Cell::point
+                                      ? shapes->points.size()
+                                      : std::size_t(shapes->cell_count()));
+        expect_arrays(shapes->point_arrays, "point_arrays");
+        expect_arrays(shapes->cell_arrays, "cell_arrays");
+      } else {
+        EXPECT_EQ(block["class"], "vtkUnstructuredGrid");
+        for (const char* name : {"patch", "layer", "region", "fitting_error", "scaled_jacobian",
+                                 "valence", "corner_vertices", "corner_wedges"}) {
+          EXPECT_THAT(block["cell_arrays"], ::testing::Contains(name));
+        }
+      }
+    }
+  }
+  EXPECT_EQ(blocks.size(), count);
+}
+
+TEST(VtkScene, HoldsThePatchesAsReadVtuTakesThem) {
+  const fs::path folder = fresh_folder("patches");
+  const VectorImage image = random_picture();
+  export_image(image, folder / "a.vtm");
+  const VectorImage read = read_vtu(folder / "a_vtm" / "picture_patches.vtu");
+  EXPECT_TRUE(to_document(read) == to_document(image));
+}
+
+TEST(VtkScene, SurfaceFacesTheViewer) {
+  const fs::path folder = fresh_folder("surface");
+  write_vtp(random_picture(), folder / "a.vtp");
+  std::string output;
+  const int status =
+      test::run({test::python_with_vtk(), "-c",
+                 "import sys; from vtkmodules.vtkIOXML import vtkXMLPolyDataReader as R\n"
+                 "r = R(); r.SetFileName(sys.argv[1]); r.Update(); d = r.GetOutput()\n"
+                 "def area(c):\n"
+                 "  p = [c.GetPoints().GetPoint(i) for i in range(4)]\n"
+                 "  return sum(p[i][0]*p[(i+1)%4][1]-p[(i+1)%4][0]*p[i][1] for i in range(4))/2\n"
+                 "a = [area(d.GetCell(i)) for i in range(d.GetNumberOfCells())]\n"
+                 "print(len(a), min(a) > 0, round(sum(a), 6))",
+                 (folder / "a.vtp").string()},
+                &output);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(output, std::to_string(12 * 16) + " True 1200.0\n");
+}
+
+TEST(VtkScene, ReplacesAFormerFileWithItsPieces) {
+  const fs::path folder = fresh_folder("again");
+  write_vtm(scene_with_all_stages(), folder / "a.vtm");
+  export_image(random_picture(), folder / "a.vtm");
+  EXPECT_THAT(names_in(folder), ::testing::ElementsAre("a.vtm", "a_vtm"));
+  EXPECT_EQ(names_in(folder / "a_vtm").size(), 6);
+}
+
+TEST(VtkScene, LeavesAForeignFolderAlone) {
+  const fs::path folder = fresh_folder("foreign");
+  fs::create_directory(folder / "a_vtm");
+  EXPECT_THROW(export_image(random_picture(), folder / "a.vtm"), Error);
+  EXPECT_THAT(names_in(folder), ::testing::ElementsAre("a_vtm"));
+}
+
+TEST(VtkScene, LeavesNothingBehindWhenCancelledAnywhere) {
+  const VectorImage image = random_picture();
+  for (const char* ending : {".vtu", ".vtp", ".vtm"}) {
+    SCOPED_TRACE(ending);
+    int reports = 0;
+    RunContext counting;
+    counting.on_progress = [&](const std::string&, double fraction) {
+      EXPECT_TRUE(fraction >= 0 && fraction <= 1);
+      ++reports;
+      return true;
+    };
+    const fs::path folder = fresh_folder("cancelled");
+    export_image(image, folder / (std::string("whole") + ending), {}, counting);
+    const std::vector<std::string> before = names_in(folder);
+    // The last report comes when the file is there.
+    for (int stop = 1; stop < reports; ++stop) {
+      int left = stop;
+      RunContext context;
+      context.on_progress = [&](const std::string&, double) { return --left > 0; };
+      try {
+        export_image(image, folder / (std::string("part") + ending), {}, context);
+        FAIL() << "not cancelled at report " << stop;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::cancelled);
+      }
+      EXPECT_EQ(names_in(folder), before);
+    }
+  }
+}
+
+TEST(VtkScene, IsTheSameForAnyThreadCount) {
+  const auto bytes_of = [](const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  const Scene scene = scene_with_all_stages();
+  const fs::path folder = fresh_folder("threads");
+  RunContext three;
+  three.threads = 3;
+  write_vtm(scene, folder / "a.vtm");
+  fs::rename(folder / "a_vtm", folder / "before");
+  fs::rename(folder / "a.vtm", folder / "before.vtm");
+  write_vtm(scene, folder / "a.vtm", three);
+  EXPECT_TRUE(bytes_of(folder / "a.vtm") == bytes_of(folder / "before.vtm"));
+  for (const std::string& name : names_in(folder / "before")) {
+    EXPECT_TRUE(bytes_of(folder / "before" / name) == bytes_of(folder / "a_vtm" / name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace quadrille
