@@ -113,11 +113,12 @@ TEST_P(EachLayer, ItsKeyChangesPixelsWhereItHasSomethingAndNowhereElse) {
   expect_same(without, driver.scene(), 0, "toggled-twice");
 }
 
-INSTANTIATE_TEST_SUITE_P(Layers, EachLayer, ::testing::Range(0, kLayerCount), [](const auto& layer) {
-  std::string name = layer_infos()[layer.param].name;
-  std::ranges::replace(name, '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Layers, EachLayer, ::testing::Range(0, kLayerCount),
+                         [](const auto& layer) {
+                           std::string name = layer_infos()[layer.param].name;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
 
 TEST(Scene, FadingALayerMixesItIn) {
   WindowDriver driver(small_subject());

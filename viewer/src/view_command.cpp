@@ -57,7 +57,7 @@ Opened open(const ViewOptions& options, cli::Observer& observer) {
     if (!options.source.empty()) opened.subject.source = read_source(options.source, observer);
   } else {
     if (!options.source.empty()) {
-      throw cli::UsageError("--source goes with a .quad document; a picture is its own source");
+      throw cli::UsageError("--source goes with a file of patches; a picture is its own source");
     }
     opened.subject.source = read_source(options.input, observer);
   }

@@ -4,6 +4,9 @@
 
 #include <charconv>
 
+#include "layer_list.h"
+#include "quadrille/error.h"
+
 namespace quadrille::viewer {
 namespace {
 
@@ -34,6 +37,15 @@ bool set_center(const std::string& text, ViewOptions& options) {
   return true;
 }
 
+std::string complaint_about_layers(const std::string& text) {
+  try {
+    parse_layers(text);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
 void add_parsed(CLI::App& parser, ViewOptions& options, const std::string& name,
                 const std::string& syntax, bool (*set)(const std::string&, ViewOptions&),
                 const std::string& help) {
@@ -52,10 +64,11 @@ void add_parsed(CLI::App& parser, ViewOptions& options, const std::string& name,
 }  // namespace
 
 void declare_view_options(CLI::App& parser, ViewOptions& options) {
-  cli::declare_input(parser, options.input, "picture, or .quad document");
+  cli::declare_input(parser, options.input, "picture, or file of patches (.quad, .vtu)");
   parser
-      .add_option("--source", options.source,
-                  "the picture that a document was made of, for its error, fields and comparison")
+      .add_option(
+          "--source", options.source,
+          "the picture that the patches were made of, for their error, fields and comparison")
       ->type_name("PICTURE");
   CLI::Option* screenshot = parser
                                 .add_option("--screenshot", options.screenshot,
@@ -64,6 +77,7 @@ void declare_view_options(CLI::App& parser, ViewOptions& options) {
   parser
       .add_option("--layers", options.layers,
                   "layers to show, with opacities where wished: picture,patches:0.5")
+      ->check(CLI::Validator(complaint_about_layers, "", "layers"))
       ->type_name("NAME[:OPACITY],...");
   parser
       .add_option("--zoom", options.zoom,
