@@ -59,10 +59,10 @@ SubjectLayers::SubjectLayers(Subject subject, RunContext context)
 
 std::string SubjectLayers::missing(LayerId id) const {
   if (needs_source(id) && !subject_.source) return "needs a source";
-  if (needs_image(id)) return subject_.image ? "" : "not yet vectorized";
+  if (needs_image(id)) return subject_.image ? "" : "not vectorized yet";
   const char* stage = stage_of(id);
   if (!stage) return "";
-  if (!subject_.stages) return subject_.source ? "not yet computed" : "needs a source";
+  if (!subject_.stages) return subject_.source ? "computed when shown" : "needs a source";
   return can_show(stage_named(stage), *subject_.stages) ? "" : "a plain lattice has none";
 }
 

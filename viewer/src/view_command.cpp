@@ -109,7 +109,7 @@ void complete(Opened& opened, const LayerList& layers, const ViewOptions& option
   for (const LayerInfo& info : layer_infos()) {
     if (!layers.shown(info.id) || complete.missing(info.id).empty()) continue;
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("there is no layer '{}' of '{}': it {}", info.name,
+                fmt::format("there is no layer '{}' of '{}' ({})", info.name,
                             options.input.string(), complete.missing(info.id)));
   }
 }
@@ -143,6 +143,7 @@ int view(const ViewOptions& options) {
   ViewerWindow window(opened.subject, opened.vectorize, settings_for(options));
   set_up(window.session(), layers, options);
   if (opened.subject.source && (!screenshot || options.panels)) window.add_sliders();
+  if (options.pick) window.pick_at(*options.pick);
   window.draw();
   if (options.timings) {
     fmt::print("shown: {:.3f} s\n", seconds_since(start));

@@ -30,11 +30,19 @@ bool set_size(const std::string& text, ViewOptions& options) {
   return true;
 }
 
-bool set_center(const std::string& text, ViewOptions& options) {
-  const auto center = parse_pair<double>(text, ',');
-  if (!center || !center->allFinite()) return false;
-  options.center = center->matrix();
+bool set_point(const std::string& text, std::optional<Eigen::Vector2d>& point) {
+  const auto pair = parse_pair<double>(text, ',');
+  if (!pair || !pair->allFinite()) return false;
+  point = pair->matrix();
   return true;
+}
+
+bool set_center(const std::string& text, ViewOptions& options) {
+  return set_point(text, options.center);
+}
+
+bool set_pick(const std::string& text, ViewOptions& options) {
+  return set_point(text, options.pick);
 }
 
 std::string complaint_about_layers(const std::string& text) {
@@ -85,6 +93,8 @@ void declare_view_options(CLI::App& parser, ViewOptions& options) {
       ->check(cli::positive_number());
   add_parsed(parser, options, "--center", "X,Y", set_center,
              "source pixel in the middle of the window");
+  add_parsed(parser, options, "--pick", "X,Y", set_pick,
+             "source pixel to click: picks the patch or vertex there");
   add_parsed(parser, options, "--size", "WxH", set_size,
              "size of the window, 16 to 8192 pixels a side; 1200x800 when absent");
   parser

@@ -16,8 +16,9 @@ struct ViewOptions {
   std::optional<double> zoom;             ///< absent: the picture fits into the window
   std::optional<Eigen::Vector2d> center;  ///< absent: the picture's middle
   Eigen::Array2i size = {1200, 800};
-  std::optional<double> compare;  ///< share of the window; absent: no comparison
-  bool panels = false;            ///< in the screenshot
+  std::optional<Eigen::Vector2d> pick;  ///< where to click, source pixels; absent: nowhere
+  std::optional<double> compare;        ///< share of the window; absent: no comparison
+  bool panels = false;                  ///< in the screenshot
   bool timings = false;
   cli::MeshOptions mesh;
   cli::RunOptions run;

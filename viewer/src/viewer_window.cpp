@@ -208,13 +208,16 @@ void ViewerWindow::release(const Eigen::Array2i& at) {
   if (std::exchange(drag_, Drag::none) == Drag::undecided) click(at);
 }
 
-void ViewerWindow::click(const Eigen::Array2i& at) {
+void ViewerWindow::pick_at(const Eigen::Vector2d& point) {
   constexpr double kReach = 6;  // of a vertex, window pixels
-  if (!subject().image) return;
-  const Frame frame = session_.view.frame();
-  const Eigen::Vector2d point =
-      frame.to_picture(at.cast<double>().matrix() + Eigen::Vector2d(0.5, 0.5));
-  session_.picked = pick(*subject().image, point, kReach / frame.zoom);
+  if (subject().image) {
+    session_.picked = pick(*subject().image, point, kReach / session_.view.zoom());
+  }
+}
+
+void ViewerWindow::click(const Eigen::Array2i& at) {
+  const Eigen::Vector2d middle_of_pixel = at.cast<double>().matrix() + Eigen::Vector2d(0.5, 0.5);
+  pick_at(session_.view.frame().to_picture(middle_of_pixel));
   draw();
 }
 

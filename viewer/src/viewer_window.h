@@ -45,6 +45,8 @@ class ViewerWindow : private Gestures {
 
   /// Sliders that vectorize the source anew.
   void add_sliders();
+  /// Picks the patch or vertex at a point of the picture, if there is one.
+  void pick_at(const Eigen::Vector2d& point);
   /// Vectorizes the source in the background with the options as the sliders have them.
   void vectorize_again();
   /// Computes what the shown layers lack, in the background.
