@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <memory>
 
 #include "chosen_options.h"
@@ -114,19 +115,26 @@ void complete(Opened& opened, const LayerList& layers, const ViewOptions& option
   }
 }
 
-void print_pan_rate(ViewerWindow& window) {
-  constexpr int kFrames = 120;
-  constexpr double kStep = 7;  // window pixels
-  Session& session = window.session();
-  const View before = session.view;
+/// Draws so many frames, with a change of the view before each.
+void print_rate(const char* name, int frames, ViewerWindow& window,
+                const std::function<void(View&, bool forth)>& change) {
+  const View before = window.session().view;
   const Clock::time_point start = Clock::now();
-  for (int i = 0; i < kFrames; ++i) {
-    const double direction = i < kFrames / 2 ? 1 : -1;
-    session.view.pan({direction * kStep, direction * kStep});
+  for (int i = 0; i < frames; ++i) {
+    change(window.session().view, i < frames / 2);
     window.draw();
   }
-  fmt::print("pan: {:.1f} frames a second\n", kFrames / seconds_since(start));
-  session.view = before;
+  fmt::print("{}: {:.1f} frames a second\n", name, frames / seconds_since(start));
+  window.session().view = before;
+}
+
+void print_rates(ViewerWindow& window) {
+  constexpr double kStep = 7;  // window pixels
+  print_rate("pan", 120, window, [](View& view, bool forth) {
+    view.pan(Eigen::Vector2d::Constant(forth ? kStep : -kStep));
+  });
+  print_rate("zoom", 32, window,
+             [](View& view, bool forth) { view.zoom_to(view.zoom() * (forth ? 1.25 : 0.8)); });
 }
 
 int view(const ViewOptions& options) {
@@ -134,7 +142,7 @@ int view(const ViewOptions& options) {
   const bool screenshot = !options.screenshot.empty();
   if (screenshot) cli::check_outputs({options.screenshot}, options.input, {".png"});
   const LayerList layers = options.layers.empty() ? LayerList() : parse_layers(options.layers);
-  check_display();
+  const DisplayConnection display;  // complain of it before anything is computed
   cli::Observer observer(options.run.verbosity(), options.run.threads);
   Opened opened = open(options, observer);
   if (screenshot) complete(opened, layers, options, observer);
@@ -147,7 +155,7 @@ int view(const ViewOptions& options) {
   window.draw();
   if (options.timings) {
     fmt::print("shown: {:.3f} s\n", seconds_since(start));
-    print_pan_rate(window);
+    print_rates(window);
   }
   if (screenshot) {
     save_raster(window.pixels(options.panels), options.screenshot);

@@ -103,8 +103,9 @@ void declare_view_options(CLI::App& parser, ViewOptions& options) {
       ->check(CLI::Range(0.0, 1.0));
   parser.add_flag("--panels", options.panels, "texts and sliders in the screenshot, too")
       ->needs(screenshot);
-  parser.add_flag("--timings", options.timings,
-                  "print how long opening takes and how many frames a second panning shows");
+  parser.add_flag(
+      "--timings", options.timings,
+      "print how long opening takes and how many frames a second panning and zooming show");
   cli::declare_mesh_options(parser, options.mesh);
   cli::declare_run_options(parser, options.run);
 }

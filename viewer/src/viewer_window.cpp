@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "display.h"
 #include "interrupt.h"
 #include "quadrille/error.h"
 #include "quadrille/raster_file.h"
@@ -16,11 +15,10 @@
 namespace quadrille::viewer {
 namespace {
 
-constexpr int kPollMilliseconds = 50;
+constexpr int kPollMilliseconds = 150;
 
 vtkSmartPointer<vtkRenderWindow> make_window(const WindowSettings& settings, vtkRenderer* scene,
                                              vtkRenderer* overlay) {
-  check_display();
   auto window = vtkSmartPointer<vtkRenderWindow>::New();
   window->SetOffScreenRendering(settings.offscreen);
   window->SetMultiSamples(0);
@@ -69,25 +67,26 @@ ViewerWindow::~ViewerWindow() {
 }
 
 void ViewerWindow::add_sliders() {
-  constexpr double kLeastQuads = 50, kLeastLambda = 0.01, kMostLambda = 1;
+  const double least_quads = std::min(50, options_.quads);
+  const double lambda = options_.cross_field.alignment;
+  const SliderRange lambda_range = {std::min(0.01, lambda), std::max(1.0, lambda)};
   const Raster& source = *subject().source;
   const double pixels = static_cast<double>(source.width) * source.height;
   const double most_quads =
-      std::clamp(pixels / 4, std::max<double>(options_.quads, 2 * kLeastQuads), double{kMaxQuads});
-  quads_slider_.emplace(interactor_, overlay_, SliderRange{kLeastQuads, most_quads},
+      std::clamp(pixels / 4, std::max(2.0 * options_.quads, 100.0), 2.0 * kMaxQuads);
+  quads_slider_.emplace(interactor_, overlay_, SliderRange{least_quads, most_quads},
                         LogSlider::Place{0.56, 0.75, 0.08});
   quads_slider_->set_title([](double quads) { return fmt::format("quads {:.0f}", quads); });
   quads_slider_->set_value(options_.quads);
   quads_slider_->on_release([this](double quads) {
-    options_.quads = static_cast<int>(std::lround(quads));
+    options_.quads = std::min(static_cast<int>(std::lround(quads)), kMaxQuads);
     vectorize_again();
   });
-  lambda_slider_.emplace(interactor_, overlay_, SliderRange{kLeastLambda, kMostLambda},
-                         LogSlider::Place{0.79, 0.98, 0.08});
-  lambda_slider_->set_title([](double lambda) { return fmt::format("lambda {:.2g}", lambda); });
-  lambda_slider_->set_value(options_.cross_field.alignment);
-  lambda_slider_->on_release([this](double lambda) {
-    options_.cross_field.alignment = lambda;
+  lambda_slider_.emplace(interactor_, overlay_, lambda_range, LogSlider::Place{0.79, 0.98, 0.08});
+  lambda_slider_->set_title([](double value) { return fmt::format("lambda {:.2g}", value); });
+  lambda_slider_->set_value(lambda);
+  lambda_slider_->on_release([this](double value) {
+    options_.cross_field.alignment = value;
     vectorize_again();
   });
 }
@@ -140,17 +139,21 @@ void ViewerWindow::follow_window_size() {
   if (size[0] > 0 && size[1] > 0) session_.view.resize({size[0], size[1]});
 }
 
+std::string ViewerWindow::status() const {
+  const RunProgress progress = background_.progress();
+  std::string text = view_line(session_);
+  if (progress.running) {
+    text += fmt::format("\n{} {:.0f} % (Esc stops)", progress.stage, 100 * progress.fraction);
+  } else if (!message_.empty()) {
+    text += "\n" + message_;
+  }
+  return text;
+}
+
 Panels::Texts ViewerWindow::texts() {
   Panels::Texts texts;
   texts.layers = layer_table(session_, *layers_);
-  texts.status = view_line(session_);
-  const RunProgress progress = background_.progress();
-  if (progress.running) {
-    texts.status +=
-        fmt::format("\n{} {:.0f} % (Esc stops)", progress.stage, 100 * progress.fraction);
-  } else if (!message_.empty()) {
-    texts.status += "\n" + message_;
-  }
+  texts.status = shown_status_ = status();
   if (session_.picked && subject().image) {
     texts.numbers = describe(*subject().image, *session_.picked, layers_->errors());
   }
@@ -249,9 +252,11 @@ void ViewerWindow::key(const std::string& name) {
 
 void ViewerWindow::tick() {
   if (cli::interrupting_signal()) return interactor_->TerminateApp();
-  const bool running = background_.progress().running;
+  const auto image = subject().image;
+  const auto stages = subject().stages;
   take_result();
-  if (running || background_.progress().running) draw();
+  // Drawing takes time from the computation under way.
+  if (image != subject().image || stages != subject().stages || status() != shown_status_) draw();
 }
 
 void ViewerWindow::cancel() {

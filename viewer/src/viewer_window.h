@@ -11,6 +11,7 @@
 #include <string>
 
 #include "background_run.h"
+#include "display.h"
 #include "interaction_style.h"
 #include "panels.h"
 #include "scene_actors.h"
@@ -77,10 +78,12 @@ class ViewerWindow : private Gestures {
   void save_view();
   void cancel();
   void follow_window_size();
+  std::string status() const;
   Panels::Texts texts();
 
   enum class Drag { none, undecided, picture, divider };
 
+  DisplayConnection display_;
   WindowSettings settings_;
   VectorizeOptions options_;
   RunContext context_;
@@ -95,6 +98,7 @@ class ViewerWindow : private Gestures {
   std::optional<LogSlider> quads_slider_, lambda_slider_;
   BackgroundRun background_;
   std::string message_;
+  std::string shown_status_;
   std::filesystem::path last_saved_;
   Drag drag_ = Drag::none;
   Eigen::Array2i drag_from_ = {0, 0};
