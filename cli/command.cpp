@@ -39,13 +39,6 @@ std::string help_hint(const std::string& command) {
   return "see 'quadrille help" + (command.empty() ? "" : " " + command) + "'";
 }
 
-/// The parser's complaint as one line without its closing period.
-std::string one_line(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  while (text.ends_with(' ') || text.ends_with('.')) text.pop_back();
-  return text;
-}
-
 int explain(const CLI::App& parser, const std::vector<std::string>& arguments) {
   const std::string topic = arguments.size() > 1 ? arguments[1] : "";
   if (arguments.size() > 2 || (!topic.empty() && !is_command(topic))) {
@@ -58,6 +51,12 @@ int explain(const CLI::App& parser, const std::vector<std::string>& arguments) {
 }
 
 }  // namespace
+
+std::string one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  while (text.ends_with(' ') || text.ends_with('.')) text.pop_back();
+  return text;
+}
 
 int run_command(std::vector<std::string> arguments) {
   CLI::App parser("Raster pictures to smooth-shaded quads (bicubic patches), drawn at any scale.",

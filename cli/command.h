@@ -19,6 +19,9 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The parser's complaint as one line without its closing period.
+std::string one_line(std::string text);
+
 /// What a sub-command does once its options are parsed; returns the exit code.
 using Action = std::function<int()>;
 

@@ -1,4 +1,4 @@
-# `cmake --install` puts the command, the rooms' libraries, their headers and a CMake package that other
+# `cmake --install` puts the command, the viewer, the rooms' libraries, their headers and a CMake package that other
 # projects find by find_package(quadrille).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -8,6 +8,9 @@ list(TRANSFORM rooms PREPEND quadrille_ OUTPUT_VARIABLE room_targets)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/quadrille)
 
 install(TARGETS quadrille)
+if(QUADRILLE_VIEWER)
+  install(TARGETS quadrille-view)
+endif()
 install(TARGETS ${room_targets} EXPORT quadrille)
 foreach(room ${rooms})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

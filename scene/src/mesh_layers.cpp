@@ -9,17 +9,41 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kCurveSegments = 12;  // of a curve that stands for a patch's edge
+constexpr int kCurveSegments = 12;  // of a patch's edge, unless a window asks for others
+
+/// The control points of the curve of edge e in the picture's coordinates.
+std::array<Vector2d, 4> edge_control(const Layer& layer, int e) {
+  const QuadMesh& mesh = layer.patches.mesh;
+  const int h = mesh.halfedge(e);
+  const Vector2d &from = mesh.vertices[mesh.origin(h)], &to = mesh.vertices[mesh.tip(h)];
+  const auto& [start, end] = layer.patches.edge_tangents[e];
+  return {layer.transform * from, layer.transform * (from + start / 3),
+          layer.transform * (to - end / 3), layer.transform * to};
+}
+
+bool may_meet(const std::array<Vector2d, 4>& control, const Eigen::AlignedBox2d& region) {
+  Eigen::AlignedBox2d hull;
+  for (const Vector2d& p : control) hull.extend(p);
+  return hull.intersects(region);
+}
 
 /// Curves of edges of all layers, with what is known of each.
 class EdgeCurves {
  public:
+  explicit EdgeCurves(const std::optional<SceneWindow>& window) : window_(window) {}
+
   void add(const Layer& layer, int layer_index, int e) {
     const QuadMesh& mesh = layer.patches.mesh;
-    for (int i = 0; i <= kCurveSegments; ++i) {
+    int segments = kCurveSegments;
+    if (window_) {
+      const auto control = edge_control(layer, e);
+      if (!may_meet(control, window_->region)) return;
+      segments = curve_segments(control, window_->tolerance);
+    }
+    for (int i = 0; i <= segments; ++i) {
       shapes_.cell_points.push_back(static_cast<int>(shapes_.points.size()));
-      shapes_.points.push_back(
-          layer.transform * edge_point(layer.patches, e, static_cast<double>(i) / kCurveSegments));
+      shapes_.points.push_back(layer.transform *
+                               edge_point(layer.patches, e, static_cast<double>(i) / segments));
     }
     shapes_.end_cell();
     layer_.push_back(layer_index);
@@ -44,6 +68,7 @@ class EdgeCurves {
   }
 
  private:
+  const std::optional<SceneWindow>& window_;
   SceneShapes shapes_;
   std::vector<std::int32_t> layer_, edge_;
   std::vector<std::uint8_t> border_, feature_, tear_;
@@ -89,8 +114,8 @@ class IrregularVertices {
 
 }  // namespace
 
-SceneLayer edge_layer(const VectorImage& image) {
-  EdgeCurves curves;
+SceneLayer edge_layer(const VectorImage& image, const std::optional<SceneWindow>& window) {
+  EdgeCurves curves(window);
   for (std::size_t l = 0; l < image.layers.size(); ++l) {
     const int edges = image.layers[l].patches.mesh.edge_count();
     for (int e = 0; e < edges; ++e) curves.add(image.layers[l], static_cast<int>(l), e);
@@ -100,8 +125,8 @@ SceneLayer edge_layer(const VectorImage& image) {
   return layer;
 }
 
-SceneLayer tear_layer(const VectorImage& image) {
-  EdgeCurves curves;
+SceneLayer tear_layer(const VectorImage& image, const std::optional<SceneWindow>& window) {
+  EdgeCurves curves(window);
   for (std::size_t l = 0; l < image.layers.size(); ++l) {
     const QuadMesh& mesh = image.layers[l].patches.mesh;
     for (int e = 0; e < mesh.edge_count(); ++e) {

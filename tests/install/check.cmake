@@ -11,3 +11,6 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G Ninja
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/stranger ${WORK}/ramp.svg)
 run(${WORK}/prefix/bin/quadrille --version)
+if(EXISTS ${BUILD}/bin/quadrille-view)
+  run(${WORK}/prefix/bin/quadrille-view --version)
+endif()

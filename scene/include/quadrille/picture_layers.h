@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "quadrille/raster.h"
 #include "quadrille/run_context.h"
 #include "quadrille/scene_layer.h"
+#include "quadrille/scene_window.h"
 
 namespace quadrille {
 
@@ -41,11 +43,12 @@ SceneLayer surface_layer(const VectorImage& image, int divisions = 4,
 /// patch's net; those of an edge once. Cells: "layer".
 SceneLayer control_net_layer(const VectorImage& image);
 
-/// "patch-edges": the curves between patches. Cells: "layer", "edge", "border", "feature", "tear".
-SceneLayer edge_layer(const VectorImage& image);
+/// "patch-edges": the curves between patches, as 12 pieces each or as the window asks for. Cells:
+/// "layer", "edge", "border", "feature", "tear".
+SceneLayer edge_layer(const VectorImage& image, const std::optional<SceneWindow>& window = {});
 
 /// "tears": those across which colours may jump. Cells: "layer", "edge".
-SceneLayer tear_layer(const VectorImage& image);
+SceneLayer tear_layer(const VectorImage& image, const std::optional<SceneWindow>& window = {});
 
 /// "irregular-vertices": those inside the mesh whose valence is not 4, up to 3 red, from 5 blue.
 /// Points: "vertex", "valence", "layer".

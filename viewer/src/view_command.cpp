@@ -1,0 +1,192 @@
+#include "view_command.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <memory>
+
+#include "chosen_options.h"
+#include "command.h"
+#include "display.h"
+#include "interrupt.h"
+#include "output_files.h"
+#include "picture_input.h"
+#include "quadrille/error.h"
+#include "quadrille/raster_file.h"
+#include "view_options.h"
+#include "viewer_window.h"
+
+namespace quadrille::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What the files give, and how a source would be vectorized.
+struct Opened {
+  Subject subject;
+  VectorizeOptions vectorize;
+};
+
+std::shared_ptr<const Raster> read_source(const std::filesystem::path& path,
+                                          cli::Observer& observer) {
+  return std::make_shared<const Raster>(cli::read_raster(path, observer));
+}
+
+void check_source(const Subject& subject, const ViewOptions& options) {
+  if (subject.image->width == subject.source->width &&
+      subject.image->height == subject.source->height) {
+    return;
+  }
+  throw Error(ErrorCode::invalid_argument,
+              fmt::format("'{}' of {} x {} pixels is not the source of '{}' of {} x {}; give the "
+                          "picture that it was made of",
+                          options.source.string(), subject.source->width, subject.source->height,
+                          options.input.string(), subject.image->width, subject.image->height));
+}
+
+Opened open(const ViewOptions& options, cli::Observer& observer) {
+  Opened opened;
+  if (cli::is_document(options.input)) {
+    opened.subject.image = std::make_shared<const VectorImage>(
+        cli::read_vector_image(options.input, options.mesh, observer));
+    if (!options.source.empty()) opened.subject.source = read_source(options.source, observer);
+  } else {
+    if (!options.source.empty()) {
+      throw cli::UsageError("--source goes with a file of patches; a picture is its own source");
+    }
+    opened.subject.source = read_source(options.input, observer);
+  }
+  if (!opened.subject.source) return opened;
+  cli::MeshOptions mesh = options.mesh;
+  if (opened.subject.image) {
+    check_source(opened.subject, options);
+    if (!mesh.quads) mesh.quads = std::max(opened.subject.image->patch_count(), 1);
+  }
+  opened.vectorize = choose_options(mesh, *opened.subject.source, observer).vectorize;
+  return opened;
+}
+
+WindowSettings settings_for(const ViewOptions& options) {
+  WindowSettings settings;
+  settings.size = options.size;
+  settings.offscreen = !options.screenshot.empty();
+  settings.threads = options.run.threads;
+  settings.title = cli::printable_name(options.input) + " - quadrille-view";
+  settings.saved = options.input.stem().string() + "-view";
+  return settings;
+}
+
+void set_up(Session& session, const LayerList& layers, const ViewOptions& options) {
+  session.layers = layers;
+  if (options.zoom) session.view.zoom_to(*options.zoom);
+  if (options.center) session.view.look_at(*options.center);
+  session.comparing = options.compare.has_value();
+  session.divider = options.compare.value_or(session.divider);
+}
+
+/// Computes all that a screenshot shows, as the window would in the background.
+void complete(Opened& opened, const LayerList& layers, const ViewOptions& options,
+              cli::Observer& observer) {
+  Subject& subject = opened.subject;
+  if (!subject.image) {
+    subject.image = std::make_shared<const VectorImage>(
+        cli::vectorize_picture(*subject.source, options.input, opened.vectorize, observer).image);
+  }
+  const SubjectLayers available(subject);
+  const bool awaited = std::ranges::any_of(layer_infos(), [&](const LayerInfo& info) {
+    return layers.shown(info.id) && available.awaits_stages(info.id);
+  });
+  if (awaited) {
+    subject.stages = std::make_shared<const Quadrangulation>(
+        quadrangulate(*subject.source, opened.vectorize, observer.context()));
+  }
+  const SubjectLayers complete(subject);
+  for (const LayerInfo& info : layer_infos()) {
+    if (!layers.shown(info.id) || complete.missing(info.id).empty()) continue;
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("there is no layer '{}' of '{}' ({})", info.name,
+                            options.input.string(), complete.missing(info.id)));
+  }
+}
+
+/// Draws so many frames, with a change of the view before each.
+void print_rate(const char* name, int frames, ViewerWindow& window,
+                const std::function<void(View&, bool forth)>& change) {
+  const View before = window.session().view;
+  const Clock::time_point start = Clock::now();
+  for (int i = 0; i < frames; ++i) {
+    change(window.session().view, i < frames / 2);
+    window.draw();
+  }
+  fmt::print("{}: {:.1f} frames a second\n", name, frames / seconds_since(start));
+  window.session().view = before;
+}
+
+void print_rates(ViewerWindow& window) {
+  constexpr double kStep = 7;  // window pixels
+  print_rate("pan", 120, window, [](View& view, bool forth) {
+    view.pan(Eigen::Vector2d::Constant(forth ? kStep : -kStep));
+  });
+  print_rate("zoom", 32, window,
+             [](View& view, bool forth) { view.zoom_to(view.zoom() * (forth ? 1.25 : 0.8)); });
+}
+
+int view(const ViewOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const bool screenshot = !options.screenshot.empty();
+  if (screenshot) cli::check_outputs({options.screenshot}, options.input, {".png"});
+  const LayerList layers = options.layers.empty() ? LayerList() : parse_layers(options.layers);
+  const DisplayConnection display;  // complain of it before anything is computed
+  cli::Observer observer(options.run.verbosity(), options.run.threads);
+  Opened opened = open(options, observer);
+  if (screenshot) complete(opened, layers, options, observer);
+  if (options.timings) fmt::print("read: {:.3f} s\n", seconds_since(start));
+
+  ViewerWindow window(opened.subject, opened.vectorize, settings_for(options));
+  set_up(window.session(), layers, options);
+  if (opened.subject.source && (!screenshot || options.panels)) window.add_sliders();
+  if (options.pick) window.pick_at(*options.pick);
+  window.draw();
+  if (options.timings) {
+    fmt::print("shown: {:.3f} s\n", seconds_since(start));
+    print_rates(window);
+  }
+  if (screenshot) {
+    save_raster(window.pixels(options.panels), options.screenshot);
+    return cli::kSuccess;
+  }
+  if (!opened.subject.image) window.vectorize_again();
+  window.compute_missing();
+  window.run();
+  if (cli::interrupting_signal()) throw Error(ErrorCode::cancelled, "stopped");
+  return cli::kSuccess;
+}
+
+}  // namespace
+
+int run_view(std::vector<std::string> arguments) {
+  CLI::App parser("Shows pictures as patches, and all that lies behind them.", "quadrille-view");
+  parser.set_version_flag("--version", "quadrille-view " QUADRILLE_VERSION);
+  parser.footer("Keys in the window: h lists them.");
+  ViewOptions options;
+  declare_view_options(parser, options);
+  try {
+    std::ranges::reverse(arguments);  // the order in which the parser takes them
+    parser.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      parser.exit(error);  // prints the help or the version
+      return cli::kSuccess;
+    }
+    throw cli::UsageError(cli::one_line(error.what()) + "; see 'quadrille-view --help'");
+  }
+  return view(options);
+}
+
+}  // namespace quadrille::viewer
