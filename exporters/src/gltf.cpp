@@ -109,7 +109,6 @@ class GltfWriter {
     add_node(given.name, grid);
   }
 
-  bool is_empty() const { return model_.meshes.empty(); }
   void write(const std::filesystem::path& path) {
     write_gltf_files(model_, buffers_, textures_, path);
   }
@@ -239,11 +238,6 @@ void write_gltf(const VectorImage& image, const std::filesystem::path& path,
   const double count = static_cast<double>(image.layers.size());
   for (std::size_t k = 0; k < image.layers.size(); ++k) {
     writer.add_layer(image.layers[k], share(context, k / count, (k + 1) / count));
-  }
-  if (writer.is_empty()) {
-    throw Error(ErrorCode::invalid_argument,
-                "nothing of the picture can be seen, which glTF cannot hold; add patches that are "
-                "not transparent");
   }
   context.progress("glTF", 1);
   writer.write(path);

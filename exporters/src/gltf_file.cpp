@@ -49,6 +49,8 @@ json document(tinygltf::Model& model, const GltfBuffers& buffers) {
     throw Error(ErrorCode::io_failure, "tinygltf cannot describe the picture; try it again");
   }
   json result = json::parse(text.str());
+  if (buffers.bytes().empty())
+    return {{"asset", result["asset"]}, {"scene", 0}, {"scenes", {{{"name", "empty"}}}}};
   result["buffers"] = json::array({{{"byteLength", buffers.bytes().size()}}});
   if (buffers.decompressed_size() == 0) return result;
   result["buffers"].push_back(
@@ -79,7 +81,8 @@ void put_bytes(std::ostream& file, std::span<const unsigned char> bytes) {
 void put_binary(std::ostream& file, std::string text, std::span<const unsigned char> bytes) {
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::size_t padding = (4 - bytes.size() % 4) % 4,
-                    whole = 12 + 8 + text.size() + 8 + bytes.size() + padding;
+                    chunk = bytes.empty() ? 0 : 8 + bytes.size() + padding,
+                    whole = 12 + 8 + text.size() + chunk;
   constexpr std::size_t kMost = 0xFFFFFFFF;
   if (whole > kMost) {
     throw Error(ErrorCode::limit_exceeded,
@@ -91,6 +94,7 @@ void put_binary(std::ostream& file, std::string text, std::span<const unsigned c
   put_word(file, text.size());
   put_word(file, 0x4E4F534A);  // "JSON"
   file << text;
+  if (bytes.empty()) return;
   put_word(file, bytes.size() + padding);
   put_word(file, 0x004E4942);  // "BIN"
   put_bytes(file, bytes);
@@ -141,14 +145,16 @@ void write_gltf_files(tinygltf::Model& model, GltfBuffers& buffers,
     return name;
   };
   std::vector<SideFile> files = {{path, {}}};
-  files.push_back({path.parent_path() / beside(".bin"), buffers.bytes()});
+  if (!buffers.bytes().empty()) {
+    files.push_back({path.parent_path() / beside(".bin"), buffers.bytes()});
+  }
   for (const EncodedTexture& texture : textures) {
     const fs::path name = beside("-texture-" + std::to_string(images.size()) + texture.ending);
     images.push_back({{"mimeType", texture.mime_type}, {"uri", as_uri(name.string())}});
     files.push_back({path.parent_path() / name, texture.bytes});
   }
   json gltf = document(model, buffers);
-  gltf["buffers"][0]["uri"] = as_uri(beside(".bin").string());
+  if (gltf.contains("buffers")) gltf["buffers"][0]["uri"] = as_uri(beside(".bin").string());
   if (!images.empty()) gltf["images"] = images;
   const std::string text = gltf.dump();
   files.front().bytes = {reinterpret_cast<const unsigned char*>(text.data()), text.size()};

@@ -28,7 +28,7 @@ struct LevelDetail {
 LevelDetail detail_of(SvgLevel level) {
   switch (level) {
     case SvgLevel::compact:
-      return {4, 4};
+      return {4.8, 4};
     case SvgLevel::faithful:
       return {0.8, 8};
     case SvgLevel::balanced:

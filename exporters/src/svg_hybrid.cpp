@@ -49,27 +49,42 @@ std::string data_uri(const EncodedTexture& file) {
   return std::string("data:") + file.mime_type + ";base64," + text.get();
 }
 
-/// The outline of what a sheet shows: its patches, and those of later sheets around them, which
-/// paint over it. `to_outline` tells whether it ends at the outline of the layer, too; the first
-/// sheet goes on where it does not. Empty when nothing ends it.
-std::vector<EdgeLoop> sheet_outline(const SheetedLayer& layer, int sheet, bool to_outline,
-                                    bool fills) {
+/// What ends the layer as a whole; empty when that is the picture's border.
+std::vector<EdgeLoop> layer_outline(const SheetedLayer& layer, double width, double height) {
+  std::vector<char> inside(layer.mesh().quad_count());
+  for (int q = 0; q < layer.mesh().quad_count(); ++q) inside[q] = layer.is_drawn(q);
+  const bool is_whole = std::find(inside.begin(), inside.end(), 0) == inside.end();
+  if (is_whole && fills_picture(layer.layer(), width, height)) return {};
+  return border_of(layer.mesh(), inside);
+}
+
+/// What ends a sheet toward earlier ones. It goes on where later ones paint over it, and beyond the
+/// outline of its patches, where that of the layer ends it. Empty for the first sheet.
+std::vector<EdgeLoop> sheet_outline(const SheetedLayer& layer, int sheet) {
+  if (sheet == 0) return {};
   const QuadMesh& mesh = layer.mesh();
-  std::vector<char> inside(mesh.quad_count()), touched(mesh.vertex_count(), 0);
+  std::vector<char> inside(mesh.quad_count(), 0), touched(mesh.vertex_count(), 0);
   for (int q = 0; q < mesh.quad_count(); ++q) {
     if (layer.sheet(q) != sheet) continue;
     for (const int v : mesh.quads()[q]) touched[v] = 1;
   }
-  bool is_whole = true;
   for (int q = 0; q < mesh.quad_count(); ++q) {
     const auto& corners = mesh.quads()[q];
-    const bool is_beside = sheet == 0 || std::any_of(corners.begin(), corners.end(),
-                                                     [&](int v) { return touched[v]; });
-    inside[q] = layer.is_drawn(q) ? layer.sheet(q) >= sheet && is_beside : !to_outline;
-    is_whole = is_whole && inside[q];
+    if (layer.is_drawn(q)) {
+      const bool is_beside =
+          std::any_of(corners.begin(), corners.end(), [&](int v) { return touched[v]; });
+      inside[q] = is_beside && layer.sheet(q) >= sheet;
+      continue;
+    }
+    bool is_next = false, is_next_to_earlier = false;
+    for (int h = 4 * q; h < 4 * q + 4; ++h) {
+      const int other = mesh.twin(h) < 0 ? -1 : layer.sheet(QuadMesh::quad_of(mesh.twin(h)));
+      is_next = is_next || other == sheet;
+      is_next_to_earlier = is_next_to_earlier || (other >= 0 && other < sheet);
+    }
+    inside[q] = is_next && !is_next_to_earlier;
   }
-  const bool ends = !is_whole || (to_outline && !fills);
-  return ends ? border_of(mesh, inside) : std::vector<EdgeLoop>{};
+  return border_of(mesh, inside);
 }
 
 class HybridSvgWriter {
@@ -98,37 +113,42 @@ class HybridSvgWriter {
                         layers_done_ + double(sheet) / layer.sheet_count() / image_.layers.size());
       textures.push_back(sheet_texture(image_, layer, sheet, kTexelsPerPixel, quiet_));
     }
+    const std::vector<EdgeLoop> outline = layer_outline(layer, image_.width, image_.height);
     out_ << "<g id=\"" << id << "\">\n";
     if (source.patches.opaque) {
-      write_sheets(layer, textures, id, colors_of, true);
+      begin_clip(layer, outline, id);
+      write_sheets(layer, textures, id, colors_of);
     } else {
       out_ << "<mask id=\"" << id
            << "-alpha\" maskUnits=\"userSpaceOnUse\" x=\"0\" y=\"0\" width=\""
            << to_text(image_.width * kUnitsPerPixel) << "\" height=\""
            << to_text(image_.height * kUnitsPerPixel) << "\">\n";
-      write_sheets(layer, textures, id + "-alpha", alpha_of, true);
-      out_ << "</mask>\n<g mask=\"url(#" << id << "-alpha)\">\n";
-      write_sheets(layer, textures, id, colors_of, false);  // the mask has the outline
-      out_ << "</g>\n";
+      begin_clip(layer, outline, id);
+      write_sheets(layer, textures, id + "-alpha", alpha_of);
+      out_ << "</g>\n</mask>\n<g mask=\"url(#" << id << "-alpha)\">\n";
+      write_sheets(layer, textures, id, colors_of);
     }
-    out_ << "</g>\n";
+    out_ << "</g>\n</g>\n";
+  }
+
+  /// Begins a group that ends at the loops, if there are any.
+  void begin_clip(const SheetedLayer& layer, const std::vector<EdgeLoop>& loops,
+                  const std::string& id) {
+    if (loops.empty()) {
+      out_ << "<g>\n";
+      return;
+    }
+    SvgPathData path(kUnitsPerPixel);
+    for (const EdgeLoop& loop : loops) path.append(clip_outline(layer.layer(), loop));
+    out_ << "<clipPath id=\"" << id << "-clip\"><path d=\"" << path.text()
+         << "\"/></clipPath>\n<g clip-path=\"url(#" << id << "-clip)\">\n";
   }
 
   void write_sheets(const SheetedLayer& layer, const std::vector<SheetTexture>& textures,
-                    const std::string& id, Texture (*channels)(const Texture&), bool to_outline) {
-    const bool fills = fills_picture(layer.layer(), image_.width, image_.height);
+                    const std::string& id, Texture (*channels)(const Texture&)) {
     for (int sheet = 0; sheet < layer.sheet_count(); ++sheet) {
-      const std::string name = id + "-sheet-" + to_text(static_cast<long long>(sheet + 1));
-      const std::vector<EdgeLoop> clip = sheet_outline(layer, sheet, to_outline, fills);
-      if (!clip.empty()) {
-        SvgPathData path(kUnitsPerPixel);
-        for (const EdgeLoop& loop : clip) path.append(clip_outline(layer.layer(), loop));
-        out_ << "<clipPath id=\"" << name << "-clip\"><path d=\"" << path.text()
-             << "\"/></clipPath>\n";
-      }
-      out_ << "<g id=\"" << name << "\"";
-      if (!clip.empty()) out_ << " clip-path=\"url(#" << name << "-clip)\"";
-      out_ << ">";
+      begin_clip(layer, sheet_outline(layer, sheet),
+                 id + "-sheet-" + to_text(static_cast<long long>(sheet + 1)));
       write_image(textures[sheet], channels(textures[sheet].texture));
       out_ << "</g>\n";
     }
@@ -140,7 +160,7 @@ class HybridSvgWriter {
     out_ << "<image x=\"" << to_text(sheet.region.x * x) << "\" y=\"" << to_text(sheet.region.y * y)
          << "\" width=\"" << to_text(sheet.region.width * x) << "\" height=\""
          << to_text(sheet.region.height * y) << "\" preserveAspectRatio=\"none\" xlink:href=\""
-         << data_uri(encode(texture, GltfTextureFormat::png, 0, quiet_)) << "\"/>";
+         << data_uri(encode(texture, GltfTextureFormat::png, 0, quiet_)) << "\"/>\n";
   }
 
   std::ostream& out_;

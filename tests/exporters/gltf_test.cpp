@@ -194,6 +194,11 @@ TEST(Gltf, PassesTheKhronosValidator) {
     }
     add(*image, {.colors = GltfColors::vertex, .lit = true}, ".gltf");
   }
+  for (const char* name : {"nothing.glb", "nothing.gltf"}) {
+    const std::filesystem::path path = test::scratch_dir() / name;
+    write_gltf(left_half(Color::Zero()), path);
+    command.push_back(path.string());
+  }
   std::string output;
   EXPECT_EQ(test::run(command, &output), 0) << output;
 }

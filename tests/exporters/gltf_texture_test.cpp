@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "exporters/gltf_file.h"
@@ -237,13 +238,16 @@ TEST(GltfFiles, RefusesPatchesThatGltfCannotPlace) {
   }
 }
 
-TEST(GltfFiles, RefusesAPictureThatCannotBeSeen) {
+TEST(GltfFiles, APictureThatCannotBeSeenIsAnEmptyScene) {
   PatchMesh patches = straight_patches(testing::lattice(2, 2, 8, 8));
   testing::set_linear_colors(patches, Color::Zero());
   patches.opaque = false;
-  const fs::path path = test::scratch_dir() / "unseen.glb";
-  EXPECT_THROW(write_gltf(testing::single_layer(std::move(patches), 8, 8), path), Error);
-  EXPECT_FALSE(fs::exists(path));
+  const VectorImage image = testing::single_layer(std::move(patches), 8, 8);
+  const fs::path folder = test::scratch_dir();
+  write_gltf(image, folder / "unseen.gltf");
+  EXPECT_FALSE(fs::exists(folder / "unseen.bin"));
+  std::ifstream file(folder / "unseen.gltf");
+  EXPECT_EQ(nlohmann::json::parse(file)["scenes"].size(), 1);
 }
 
 }  // namespace

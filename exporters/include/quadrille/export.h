@@ -26,7 +26,7 @@ struct RasterFileOptions {
 /// approximated more finely wherever that lowers the squared error (8-bit steps, summed over square
 /// pixels, mean of the channels) by t^2 or more for a byte of the compressed file.
 enum class SvgLevel {
-  compact,   ///< t = 4
+  compact,   ///< t = 4.8
   balanced,  ///< t = 1.7
   faithful,  ///< t = 0.8, and coordinates to 1/8 of a pixel instead of 1/4 (both eight times
              ///< finer along tears and the outline)
@@ -128,9 +128,9 @@ void write_postscript(const VectorImage& image, const std::filesystem::path& pat
 /// tears stay sharp at any scale. 1 unit = 1 pixel, x to the right, y up, the picture's bottom left
 /// corner at the origin, its front towards +z, materials double-sided; layer k lies at z = k (1 +
 /// |relief|). Transparent patches are left out. The mesh's extras.quadrille_document holds the
-/// layer's patches: a quantised document in base64. Throws Error{invalid_argument} for a picture of
-/// which nothing can be seen, patches that are not finite or 1e7 pixels away, or options out of
-/// range, and Error{limit_exceeded} above 2^26 quads in a layer.
+/// layer's patches: a quantised document in base64. Where nothing can be seen the scene is empty.
+/// Throws Error{invalid_argument} for patches that are not finite or 1e7 pixels away, or options out
+/// of range, and Error{limit_exceeded} above 2^26 quads in a layer.
 void write_gltf(const VectorImage& image, const std::filesystem::path& path,
                 const GltfOptions& options = {}, const RunContext& context = {});
 /// One Bezier quadrilateral (VTK cell type 77) per patch, placed as in write_gltf(). Point arrays:
