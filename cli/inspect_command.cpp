@@ -52,7 +52,7 @@ int run_inspect(const InspectRequest& request) {
   }
   check_outputs({request.output}, request.input, inspect_endings());
   Observer observer(request.run.verbosity(), request.run.threads);
-  const Raster picture = read_raster(request.input, observer);
+  const Raster picture = read_picture(request.input, observer);
   if (all_stages) return write_all_stages(request, picture, observer);
   const ChosenOptions options = choose_options(request.mesh, picture, observer);
   const Quadrangulation stages = with_name_of(

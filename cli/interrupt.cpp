@@ -16,6 +16,8 @@ void remember(int signal) {
 }  // namespace
 
 void catch_interrupts() {
+  // A file over the user's limit is then an error like a full disk, which leaves nothing behind.
+  std::signal(SIGXFSZ, SIG_IGN);
   for (const int signal : {SIGINT, SIGTERM}) {
     // Whoever started us ignoring it (nohup, a background job) wants that kept.
     if (std::signal(signal, remember) == SIG_IGN) std::signal(signal, SIG_IGN);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "output_files.h"
+#include "quadrille/error.h"
 #include "quadrille/image_file.h"
 #include "quadrille/render.h"
 
@@ -23,6 +24,17 @@ void note_source(VectorImage& image, const fs::path& source) {
 bool is_document(const fs::path& path) {
   const std::vector<std::string> endings = import_endings();
   return std::ranges::find(endings, ending_of(path)) != endings.end();
+}
+
+Raster read_picture(const fs::path& path, Observer& observer) {
+  if (is_document(path)) {
+    throw Error(
+        ErrorCode::unsupported_format,
+        "'" + path.string() +
+            "' holds patches already; write them in other formats by `quadrille export`, or "
+            "draw them as a picture by `quadrille render` first");
+  }
+  return observer.stage("read", [&] { return load_image(path); });
 }
 
 Raster read_raster(const fs::path& path, Observer& observer) {

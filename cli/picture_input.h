@@ -15,6 +15,10 @@ namespace quadrille::cli {
 /// True for files of patches, see import_endings(); all others are read as pictures.
 bool is_document(const std::filesystem::path& path);
 
+/// A picture's pixels. Throws Error{unsupported_format} for a document, whose patches would be
+/// drawn and fitted again.
+Raster read_picture(const std::filesystem::path& path, Observer& observer);
+
 /// A picture's pixels; a document is drawn at scale 1.
 Raster read_raster(const std::filesystem::path& path, Observer& observer);
 

@@ -79,7 +79,7 @@ int run_vectorize(const VectorizeRequest& request) {
   if (!request.report.empty()) check_outputs({request.report}, request.input, {".json"});
   Observer observer(request.run.verbosity(), request.run.threads);
 
-  const Raster picture = read_raster(request.input, observer);
+  const Raster picture = read_picture(request.input, observer);
   check_scale(picture, request.files.raster.scale);
   MeshOptions mesh = request.mesh;
   if (request.max_error) mesh.quads.reset();

@@ -66,6 +66,15 @@ TEST(Refusal, AFullDiskLeavesNothingBehind) {
   }
 }
 
+TEST(Refusal, PatchesAreNotFittedAgain) {
+  const fs::path folder = fresh_folder("patches");
+  const std::string document = (folder / "a.quad").string();
+  ASSERT_EQ(quadrille({sample("formats/one_pixel.png"), "-o", document}).exit_code, 0);
+  expect_refused(quadrille({document, "-o", (folder / "b.svg").string()}), "a.quad");
+  expect_refused(quadrille({"inspect", document, "-o", (folder / "b.vtm").string()}), "a.quad");
+  EXPECT_EQ(files_in(folder).size(), 1);
+}
+
 TEST(Refusal, MissingPicture) {
   const fs::path folder = fresh_folder("missing");
   expect_refused(quadrille({"nowhere.png", "-o", (folder / "a.svg").string()}), "nowhere.png");

@@ -110,8 +110,9 @@ void complete(Opened& opened, const LayerList& layers, const ViewOptions& option
   for (const LayerInfo& info : layer_infos()) {
     if (!layers.shown(info.id) || complete.missing(info.id).empty()) continue;
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("there is no layer '{}' of '{}' ({})", info.name,
-                            options.input.string(), complete.missing(info.id)));
+                fmt::format("the layer '{}' of '{}' cannot be shown ({}); leave it out or give "
+                            "--source PICTURE",
+                            info.name, options.input.string(), complete.missing(info.id)));
   }
 }
 
