@@ -3,9 +3,7 @@
 #include <cmath>
 
 namespace quadrille {
-namespace {
 
-/// True when both ends lie on the same side of the rectangle [0, width] x [0, height].
 bool is_on_a_side(const PlaneCurve& curve, double width, double height) {
   constexpr double kSamePlace = 1e-3;  // pixels
   const double sides[2][2] = {{0, width}, {0, height}};
@@ -19,8 +17,6 @@ bool is_on_a_side(const PlaneCurve& curve, double width, double height) {
   }
   return false;
 }
-
-}  // namespace
 
 bool fills_picture(const Layer& layer, double width, double height) {
   const QuadMesh& mesh = layer.patches.mesh;

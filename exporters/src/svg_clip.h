@@ -5,6 +5,9 @@
 
 namespace quadrille {
 
+/// True when both ends lie on the same side of the rectangle [0, width] x [0, height].
+bool is_on_a_side(const PlaneCurve& curve, double width, double height);
+
 /// True when the border of the layer's mesh is that of the picture, at which every viewer clips.
 bool fills_picture(const Layer& layer, double width, double height);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "svg_clip.h"
+
 namespace quadrille {
 namespace {
 
@@ -46,15 +48,7 @@ class Grouper {
   }
 
   bool on_picture_border(int h) const {
-    const auto corners = layer_.geometry(QuadMesh::quad_of(h)).value;
-    const Eigen::Vector2d &a = corners[QuadMesh::corner_of(h)],
-                          &b = corners[(QuadMesh::corner_of(h) + 1) & 3];
-    for (int axis = 0; axis < 2; ++axis) {
-      for (const double side : {0.0, size_[axis]}) {
-        if (std::abs(a[axis] - side) < 1e-3 && std::abs(b[axis] - side) < 1e-3) return true;
-      }
-    }
-    return false;
+    return is_on_a_side(edge_curve(layer_.layer(), h), size_.x(), size_.y());
   }
 
   /// All of them without a seam, below the groups.
