@@ -22,6 +22,8 @@ namespace {
 
 using Object = QPDFObjectHandle;
 
+constexpr char kColors[] = "/DeviceRGB", kGrays[] = "/DeviceGray";
+
 /// Builds the one page of the document.
 class PdfBuilder {
  public:
@@ -69,8 +71,8 @@ class PdfBuilder {
 
   /// Shadings and graphics states under the names that a content stream calls them by.
   struct Resources {
-    Object dictionary = Object::parse("<< /Shading << >> /ExtGState << >> >>");
-    int shadings = 0, states = 0;
+    Object dictionary = Object::parse("<< /Shading << >> /ExtGState << >> /XObject << >> >>");
+    int shadings = 0, states = 0, forms = 0;
 
     std::string add_shading(const Object& shading) {
       const std::string name = "/S" + to_text(static_cast<long long>(shadings++));
@@ -82,38 +84,49 @@ class PdfBuilder {
       dictionary.getKey("/ExtGState").replaceKey(name, state);
       return name;
     }
+    std::string add_form(const Object& form) {
+      const std::string name = "/F" + to_text(static_cast<long long>(forms++));
+      dictionary.getKey("/XObject").replaceKey(name, form);
+      return name;
+    }
   };
 
   std::string painted(const PaintedLayer& layer, Resources& resources) {
-    std::string content;
-    if (layer.masked) {
-      Resources inner;
-      std::string mask = painted(layer.alpha, layer.grid, inner);
-      if (!layer.opaque_region.empty()) mask += "1 g\n" + filled(layer.opaque_region);
-      content += "q\n" + resources.add_state(soft_mask(mask, inner)) + " gs\n";
-      // A group, since a soft mask inside of it takes the place of the one around it.
-      Resources group;
-      const std::string colors = painted(layer.color, layer.grid, group);
-      return content + colors_group(colors, group, resources) + "Q\n";
-    }
-    return painted(layer.color, layer.grid, resources);
+    if (!layer.masked) return painted(layer.color, layer.grid, resources, kColors);
+    Resources inner;
+    std::string mask = painted(layer.alpha, layer.grid, inner, kGrays);
+    if (!layer.opaque_region.empty()) mask += "1 g\n" + filled(layer.opaque_region);
+    Resources group;
+    const std::string colors = painted(layer.color, layer.grid, group, kColors);
+    return through_mask(soft_mask(mask, inner), colors, group, kColors, resources);
   }
 
   std::string painted(const std::vector<PaintStep>& steps, const CoordinateGrid& grid,
-                      Resources& resources) {
+                      Resources& resources, const char* color_space) {
     std::string content;
     for (const PaintStep& step : steps) {
       if (step.shading.empty()) continue;
-      const std::string paint = resources.add_shading(stream(step.shading, grid)) + " sh\n";
-      if (step.region.empty()) {
+      const bool cut_off = !step.region.empty();
+      Resources inner;
+      const std::string name =
+          (cut_off ? inner : resources).add_shading(stream(step.shading, grid));
+      const std::string paint = name + " sh\n";
+      if (!cut_off) {
         content += paint;
-      } else {
-        Resources none;
-        const Object state = soft_mask("1 g\n" + filled(step.region), none);
-        content += "q\n" + resources.add_state(state) + " gs\n" + paint + "Q\n";
+        continue;
       }
+      const Object mask = soft_mask("1 g\n" + filled(step.region), Resources{});
+      content += through_mask(mask, paint, inner, color_space, resources);
     }
     return content;
+  }
+
+  /// The content as a group: the mask then cuts off each pixel once, however often the content
+  /// paints it, and takes the place of none inside of it.
+  std::string through_mask(const Object& mask, const std::string& content, const Resources& inner,
+                           const char* color_space, Resources& resources) {
+    const std::string form = resources.add_form(group(content, inner, color_space));
+    return "q\n" + resources.add_state(mask) + " gs\n" + form + " Do\nQ\n";
   }
 
   static std::string filled(const std::string& path) {
@@ -142,20 +155,10 @@ class PdfBuilder {
   Object soft_mask(const std::string& content, const Resources& resources) {
     const std::string black = "0 g\n" + page_rectangle() + " re f\n";
     Object mask = Object::parse("<< /Type /Mask /S /Luminosity >>");
-    mask.replaceKey("/G", group(black + content, resources, "/DeviceGray"));
+    mask.replaceKey("/G", group(black + content, resources, kGrays));
     Object state = Object::parse("<< /Type /ExtGState >>");
     state.replaceKey("/SMask", mask);
     return indirect(state);
-  }
-
-  std::string colors_group(const std::string& content, const Resources& inner,
-                           Resources& resources) {
-    Object& dictionary = resources.dictionary;
-    if (!dictionary.hasKey("/XObject")) dictionary.replaceKey("/XObject", Object::newDictionary());
-    Object forms = dictionary.getKey("/XObject");
-    const std::string name = "/F" + to_text(static_cast<long long>(forms.getKeys().size()));
-    forms.replaceKey(name, group(content, inner, "/DeviceRGB"));
-    return name + " Do\n";
   }
 
   Object stream(const CoonsShading& shading, const CoordinateGrid& grid) {
