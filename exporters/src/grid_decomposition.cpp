@@ -23,8 +23,11 @@ struct Candidate {
 
 class GridCutter {
  public:
-  GridCutter(const QuadMesh& mesh, std::span<const unsigned char> kinds)
-      : mesh_(mesh), kinds_(kinds.begin(), kinds.end()), visited_(mesh.quad_count(), 0) {}
+  GridCutter(const QuadMesh& mesh, std::span<const unsigned char> kinds, const RunContext& context)
+      : mesh_(mesh),
+        kinds_(kinds.begin(), kinds.end()),
+        context_(context),
+        visited_(mesh.quad_count(), 0) {}
 
   /// Sizes only shrink as quads are cut out. So each candidate starts with the most there may be,
   /// and one that turns out to be as large as was thought when it is the first of all is the
@@ -40,6 +43,7 @@ class GridCutter {
       const Candidate best = candidates.top();
       candidates.pop();
       if (!kinds_[QuadMesh::quad_of(best.corner)]) continue;
+      report();
       const Candidate now = largest_from(best.corner);
       if (now < best) {
         candidates.push(now);
@@ -62,6 +66,13 @@ class GridCutter {
   }
   int down(int h) const {
     return within_grid(h, below(mesh_, h), mesh_.edge(QuadMesh::next(QuadMesh::next(h))));
+  }
+
+  /// The fraction is of quads that are taken, which only grows.
+  void report() {
+    constexpr long long kPerReport = 4096;
+    if (evaluation_ % kPerReport != 0) return;
+    context_.progress("find grids", double(taken_) / mesh_.quad_count());
   }
 
   /// Marks the quad as visited in this evaluation; false when it has been already, as where a mesh
@@ -110,12 +121,15 @@ class GridCutter {
       if (j + 1 == grid.rows) break;
     }
     for (const int h : grid.tops) kinds_[QuadMesh::quad_of(h)] = 0;
+    taken_ += static_cast<int>(grid.tops.size());
     return grid;
   }
 
   const QuadMesh& mesh_;
   std::vector<unsigned char> kinds_;  ///< 0 for quads that are taken
-  std::vector<long long> visited_;    ///< per quad the last evaluation that reached it
+  const RunContext& context_;
+  int taken_ = 0;
+  std::vector<long long> visited_;  ///< per quad the last evaluation that reached it
   long long evaluation_ = 0;
 };
 
@@ -128,8 +142,9 @@ int right_of(const QuadMesh& mesh, int h) {
 
 int below(const QuadMesh& mesh, int h) { return mesh.twin(QuadMesh::next(QuadMesh::next(h))); }
 
-std::vector<QuadGrid> regular_grids(const QuadMesh& mesh, std::span<const unsigned char> kinds) {
-  return GridCutter(mesh, kinds).cut();
+std::vector<QuadGrid> regular_grids(const QuadMesh& mesh, std::span<const unsigned char> kinds,
+                                    const RunContext& context) {
+  return GridCutter(mesh, kinds, context).cut();
 }
 
 }  // namespace quadrille

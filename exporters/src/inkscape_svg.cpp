@@ -106,12 +106,11 @@ class InkscapeSvgWriter {
   void write_layer(const Layer& layer) {
     const QuadMesh& mesh = layer.patches.mesh;
     // Half the tolerance is as good as nothing or all.
-    const std::vector<PatchOpacity> opacity =
-        patch_opacities(layer.patches, 0.5 * kTolerance / 255);
+    const std::vector<PatchOpacity> opacity = paint_opacities(layer, 0.5 * kTolerance / 255);
     std::vector<unsigned char> kinds(opacity.size());
     std::ranges::transform(opacity, kinds.begin(),
                            [](PatchOpacity o) { return static_cast<unsigned char>(o); });
-    std::vector<QuadGrid> grids = regular_grids(mesh, kinds);
+    std::vector<QuadGrid> grids = regular_grids(mesh, kinds, context_);
     // Translucent ones first, so that they can reach under the opaque ones.
     const auto opacity_of = [&](const QuadGrid& grid) {
       return opacity[QuadMesh::quad_of(grid.tops.front())];

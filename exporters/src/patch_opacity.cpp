@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "paintable_patch.h"
+
 namespace quadrille {
 namespace {
 
@@ -26,6 +28,14 @@ std::vector<PatchOpacity> patch_opacities(const PatchMesh& patches, double toler
   if (patches.opaque) return opacities;
   for (int q = 0; q < patches.patch_count(); ++q) {
     opacities[q] = opacity_of(ferguson_patch(patches, q).color, tolerance);
+  }
+  return opacities;
+}
+
+std::vector<PatchOpacity> paint_opacities(const Layer& layer, double tolerance) {
+  std::vector<PatchOpacity> opacities = patch_opacities(layer.patches, tolerance);
+  for (int q = 0; q < layer.patches.patch_count(); ++q) {
+    if (!is_paintable(layer, q)) opacities[q] = PatchOpacity::transparent;
   }
   return opacities;
 }

@@ -4,7 +4,7 @@
 
 // Chooses std::shared_ptr in the headers of libqpdf 11, which warn otherwise.
 #define POINTERHOLDER_TRANSITION 4
-#include <qpdf/Buffer.hh>
+#include <qpdf/Pl_OStream.hh>
 #include <qpdf/QPDF.hh>
 #include <qpdf/QPDFPageDocumentHelper.hh>
 #include <qpdf/QPDFPageObjectHelper.hh>
@@ -16,6 +16,7 @@
 #include "quadrille/error.h"
 #include "quadrille/export.h"
 #include "svg_text.h"
+#include "utf8_text.h"
 
 namespace quadrille {
 namespace {
@@ -23,6 +24,24 @@ namespace {
 using Object = QPDFObjectHandle;
 
 constexpr char kColors[] = "/DeviceRGB", kGrays[] = "/DeviceGray";
+
+/// The share of the work that is done when the file is being put together.
+constexpr double kPainting = 0.95;
+
+/// The data of a stream, from the scratch file when they are written.
+class ScratchData : public Object::StreamDataProvider {
+ public:
+  ScratchData(ScratchFile& scratch, const ScratchRange& range) : scratch_(scratch), range_(range) {}
+  void provideStreamData(const QPDFObjGen&, Pipeline* pipeline) override {
+    scratch_.read(range_,
+                  [&](ScratchFile::Bytes part) { pipeline->write(part.data(), part.size()); });
+    pipeline->finish();
+  }
+
+ private:
+  ScratchFile& scratch_;
+  ScratchRange range_;
+};
 
 /// Builds the one page of the document.
 class PdfBuilder {
@@ -32,18 +51,22 @@ class PdfBuilder {
     pdf_.emptyPDF();
   }
 
-  std::shared_ptr<Buffer> build() {
+  void write(std::ostream& file) {
     add_page();
     add_metadata();
+    Pl_OStream out("PDF", file);
     QPDFWriter writer(pdf_);
-    writer.setOutputMemory();
+    writer.setOutputPipeline(&out);
+    const auto report = [&](int percent) {
+      context_.progress("write PDF", kPainting + (1 - kPainting) * percent / 100);
+    };
+    writer.registerProgressReporter(std::make_shared<QPDFWriter::FunctionProgressReporter>(report));
     writer.setObjectStreamMode(qpdf_o_generate);
     writer.setCompressStreams(true);
     writer.setRecompressFlate(false);
     writer.setDecodeLevel(qpdf_dl_none);
     writer.setDeterministicID(true);
     writer.write();
-    return writer.getBufferSharedPointer();
   }
 
  private:
@@ -56,8 +79,9 @@ class PdfBuilder {
     for (std::size_t l = 0; l < image_.layers.size(); ++l) {
       const PaintedLayer layer = paint_layer(
           image_.layers[l], fills_page(image_, l), Transparency::soft_mask, options_.tolerance,
-          context_,
-          [&](double part) { context_.progress("write PDF", (l + part) / image_.layers.size()); });
+          scratch_, context_, [&](double part) {
+            context_.progress("write PDF", kPainting * (l + part) / image_.layers.size());
+          });
       content += painted(layer, resources_);
     }
     Object page = indirect(Object::newDictionary());
@@ -92,13 +116,40 @@ class PdfBuilder {
   };
 
   std::string painted(const PaintedLayer& layer, Resources& resources) {
-    if (!layer.masked) return painted(layer.color, layer.grid, resources, kColors);
+    if (!layer.masked) return painted_colors(layer, resources);
     Resources inner;
     std::string mask = painted(layer.alpha, layer.grid, inner, kGrays);
     if (!layer.opaque_region.empty()) mask += "1 g\n" + filled(layer.opaque_region);
     Resources group;
-    const std::string colors = painted(layer.color, layer.grid, group, kColors);
+    const std::string colors = painted_colors(layer, group);
     return through_mask(soft_mask(mask, inner), colors, group, kColors, resources);
+  }
+
+  std::string painted_colors(const PaintedLayer& layer, Resources& resources) {
+    return beneath(layer, resources) + painted(layer.color, layer.grid, resources, kColors);
+  }
+
+  std::string beneath(const PaintedLayer& layer, Resources& resources) {
+    if (layer.underlay.empty()) return {};
+    const bool cut_off = !layer.underlay_region.empty();
+    Resources inner;
+    const std::string name = (cut_off ? inner : resources).add_form(picture(layer.underlay));
+    const std::string paint = "q\n" + image_matrix(layer.underlay) + " cm\n" + name + " Do\nQ\n";
+    if (!cut_off) return paint;
+    const Object mask = soft_mask("1 g\n" + filled(layer.underlay_region), Resources{});
+    return through_mask(mask, paint, inner, kColors, resources);
+  }
+
+  Object picture(const Underlay& underlay) {
+    Object image = Object::newStream(&pdf_, underlay.rgb);
+    Object dictionary = image.getDict();
+    dictionary.replaceKey("/Type", Object::newName("/XObject"));
+    dictionary.replaceKey("/Subtype", Object::newName("/Image"));
+    dictionary.replaceKey("/Width", Object::newInteger(underlay.width));
+    dictionary.replaceKey("/Height", Object::newInteger(underlay.height));
+    dictionary.replaceKey("/ColorSpace", Object::newName(kColors));
+    dictionary.replaceKey("/BitsPerComponent", Object::newInteger(8));
+    return image;
   }
 
   std::string painted(const std::vector<PaintStep>& steps, const CoordinateGrid& grid,
@@ -164,14 +215,14 @@ class PdfBuilder {
   Object stream(const CoonsShading& shading, const CoordinateGrid& grid) {
     Object object = Object::newStream(&pdf_);
     object.replaceDict(Object::parse("<< " + shading_entries(shading, grid) + " >>"));
-    object.replaceStreamData(shading.data, Object::newName("/FlateDecode"),
-                             Object::parse(predictor(shading)));
+    object.replaceStreamData(std::make_shared<ScratchData>(scratch_, shading.data),
+                             Object::newName("/FlateDecode"), Object::parse(predictor(shading)));
     return object;
   }
 
   void add_metadata() {
     Object info = indirect(Object::newDictionary());
-    info.replaceKey("/Title", Object::newUnicodeString(options_.title));
+    info.replaceKey("/Title", Object::newUnicodeString(valid_utf8(options_.title)));
     info.replaceKey("/Producer", Object::newUnicodeString("Quadrille"));
     pdf_.getTrailer().replaceKey("/Info", info);
     Object xmp = Object::newStream(&pdf_, xmp_packet(options_.title));
@@ -193,6 +244,7 @@ class PdfBuilder {
            "</rdf:Description>\n</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end=\"r\"?>\n";
   }
 
+  ScratchFile scratch_;  // outlives the streams that read from it
   QPDF pdf_;
   const VectorImage& image_;
   const PdfOptions& options_;
@@ -205,17 +257,14 @@ class PdfBuilder {
 void write_pdf(const VectorImage& image, const std::filesystem::path& path,
                const PdfOptions& options, const RunContext& context) {
   check_page_options(options);
-  std::shared_ptr<Buffer> bytes;
-  try {
-    bytes = PdfBuilder(image, options, context).build();
-  } catch (const QPDFExc& error) {
-    throw Error(ErrorCode::numerical_failure, "cannot write '" + path.string() +
-                                                  "': the PDF cannot be put together (" +
-                                                  error.what() + "); report the picture");
-  }
   write_stream_atomically(path, [&](std::ostream& file) {
-    file.write(reinterpret_cast<const char*>(bytes->getBuffer()),
-               static_cast<std::streamsize>(bytes->getSize()));
+    try {
+      PdfBuilder(image, options, context).write(file);
+    } catch (const QPDFExc& error) {
+      throw Error(ErrorCode::numerical_failure, "cannot write '" + path.string() +
+                                                    "': the PDF cannot be put together (" +
+                                                    error.what() + "); report the picture");
+    }
   });
 }
 

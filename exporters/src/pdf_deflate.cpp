@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <new>
-#include <utility>
 
 namespace quadrille {
 namespace {
@@ -10,7 +9,7 @@ namespace {
 constexpr int kBestCompression = 9;
 constexpr char kUp = 2;
 
-void run(z_stream& stream, std::span<const std::uint8_t> bytes, int flush, std::string& out) {
+void run(z_stream& stream, std::span<const std::uint8_t> bytes, int flush, ScratchFile& out) {
   std::uint8_t buffer[16384];
   stream.next_in = const_cast<std::uint8_t*>(bytes.data());
   stream.avail_in = static_cast<unsigned>(bytes.size());
@@ -18,14 +17,14 @@ void run(z_stream& stream, std::span<const std::uint8_t> bytes, int flush, std::
     stream.next_out = buffer;
     stream.avail_out = sizeof buffer;
     ::deflate(&stream, flush);
-    out.append(reinterpret_cast<const char*>(buffer), sizeof buffer - stream.avail_out);
+    out.append({buffer, sizeof buffer - stream.avail_out});
   } while (stream.avail_out == 0);
 }
 
 }  // namespace
 
-RecordDeflater::RecordDeflater(int record_bytes)
-    : above_(record_bytes, '\0'), row_bytes_(record_bytes) {
+RecordDeflater::RecordDeflater(int record_bytes, ScratchFile& out)
+    : out_(out), begin_(out.size()), above_(record_bytes, '\0'), row_bytes_(record_bytes) {
   if (deflateInit(&stream_, kBestCompression) != Z_OK) throw std::bad_alloc();
 }
 
@@ -48,12 +47,12 @@ void RecordDeflater::end_row() {
   above_.swap(row_);
   row_.clear();
   run(stream_, {reinterpret_cast<const std::uint8_t*>(predicted.data()), predicted.size()},
-      Z_NO_FLUSH, compressed_);
+      Z_NO_FLUSH, out_);
 }
 
-std::string RecordDeflater::finish() {
-  run(stream_, {}, Z_FINISH, compressed_);
-  return std::move(compressed_);
+ScratchRange RecordDeflater::finish() {
+  run(stream_, {}, Z_FINISH, out_);
+  return {begin_, out_.size() - begin_};
 }
 
 }  // namespace quadrille

@@ -18,18 +18,20 @@ constexpr int kChunk = 512;
 
 class LayerPainter {
  public:
-  LayerPainter(const Layer& layer, double tolerance, const RunContext& context,
-               const std::function<void(double)>& progress)
+  LayerPainter(const Layer& layer, double tolerance, ScratchFile& scratch,
+               const RunContext& context, const std::function<void(double)>& progress)
       : layer_(layer),
         tolerance_(tolerance),
+        scratch_(scratch),
         arena_(arena_size(context)),
         progress_(progress),
-        opacity_(patch_opacities(layer.patches, 0.5 * tolerance / 255)) {}
+        opacity_(paint_opacities(layer, 0.5 * tolerance / 255)) {}
 
   PaintedLayer run(bool fills_page, Transparency transparency) {
     const QuadMesh& mesh = layer_.patches.mesh;
     PaintedLayer painted;
-    painted.grid = grid_ = CoordinateGrid::covering(bounds());
+    const Eigen::AlignedBox2d box = bounds();
+    painted.grid = grid_ = CoordinateGrid::covering(with_margin(box));
     painted.masked = transparency == Transparency::soft_mask && !all(PatchOpacity::opaque);
 
     PaintGroups groups = paint_groups(mesh, where_not(PatchOpacity::transparent));
@@ -37,8 +39,13 @@ class LayerPainter {
     groups.open_unpainted = painted.masked;
     jobs_ = painted.masked ? 2 : 1;
     const bool flatten = transparency == Transparency::over_white;
-    painted.color =
-        steps(groups, groups.count, flatten ? ShadedQuantity::over_white : ShadedQuantity::color);
+    const auto quantity = flatten ? ShadedQuantity::over_white : ShadedQuantity::color;
+    const CellTable cells = fitted(groups, groups.count, quantity);
+    painted.underlay = underlay(layer_, cells, box);
+    if (!fills_page && !painted.masked) {
+      painted.underlay_region = region(border_of(mesh, where_not(PatchOpacity::transparent)));
+    }
+    painted.color = steps(groups, groups.count, quantity, cells);
     if (painted.masked) paint_alpha(painted, fills_page);
     return painted;
   }
@@ -57,22 +64,27 @@ class LayerPainter {
     for (std::size_t q = 0; q < opacity_.size(); ++q) {
       if (opaque[q]) groups.group[q] = groups.count;
     }
-    painted.alpha = steps(groups, groups.count, ShadedQuantity::alpha);
-    painted.opaque_region = region_path(layer_, border_of(mesh, opaque), PaintedLayer::kPathUnits);
+    painted.alpha = steps(groups, groups.count, ShadedQuantity::alpha,
+                          fitted(groups, groups.count, ShadedQuantity::alpha));
+    painted.opaque_region = region(border_of(mesh, opaque));
   }
 
-  std::vector<PaintStep> steps(const PaintGroups& groups, int count, ShadedQuantity quantity) {
+  std::vector<PaintStep> steps(const PaintGroups& groups, int count, ShadedQuantity quantity,
+                               const CellTable& cells) {
     const QuadMesh& mesh = layer_.patches.mesh;
-    const CellTable cells = fitted(groups, count, quantity);
     std::vector<PaintStep> all;
     for (int g = 0; g < count; ++g) {
       const auto visits = visit_patches(mesh, groups, g, cells);
       const auto share = [&](double part) { report(0.5 + 0.5 * (g + part) / count); };
-      all.push_back({coons_shading(layer_, groups, visits, cells, grid_, quantity, share),
-                     region_path(layer_, group_region(mesh, groups, g), PaintedLayer::kPathUnits)});
+      all.push_back({coons_shading(layer_, groups, visits, cells, grid_, quantity, scratch_, share),
+                     region(group_region(mesh, groups, g))});
     }
     ++jobs_done_;
     return all;
+  }
+
+  std::string region(const std::vector<EdgeLoop>& loops) const {
+    return region_path(layer_, loops, PaintedLayer::kPathUnits);
   }
 
   CellTable fitted(const PaintGroups& groups, int count, ShadedQuantity quantity) {
@@ -100,14 +112,20 @@ class LayerPainter {
   /// `part` of the work on one quantity is done.
   void report(double part) const { progress_((jobs_done_ + part) / jobs_); }
 
-  /// Of the drawn patches, with what they reach beyond their edges.
+  /// Of the drawn patches.
   Eigen::AlignedBox2d bounds() const {
     Eigen::AlignedBox2d box;
     for (int q = 0; q < layer_.patches.patch_count(); ++q) {
+      if (opacity_[q] == PatchOpacity::transparent) continue;
       for (const auto& row : to_bezier(placed_geometry(layer_, q)).control) {
         for (const Eigen::Vector2d& p : row) box.extend(p);
       }
     }
+    return box;
+  }
+
+  /// With what patches reach beyond their edges.
+  static Eigen::AlignedBox2d with_margin(const Eigen::AlignedBox2d& box) {
     constexpr double kMargin = 2;
     const Eigen::Vector2d margin(kMargin, kMargin);
     return box.isEmpty() ? box : Eigen::AlignedBox2d(box.min() - margin, box.max() + margin);
@@ -126,6 +144,7 @@ class LayerPainter {
 
   const Layer& layer_;
   double tolerance_;
+  ScratchFile& scratch_;
   tbb::task_arena arena_;
   const std::function<void(double)>& progress_;
   std::vector<PatchOpacity> opacity_;
@@ -136,9 +155,9 @@ class LayerPainter {
 }  // namespace
 
 PaintedLayer paint_layer(const Layer& layer, bool fills_page, Transparency transparency,
-                         double tolerance, const RunContext& context,
+                         double tolerance, ScratchFile& scratch, const RunContext& context,
                          const std::function<void(double)>& progress) {
-  return LayerPainter(layer, tolerance, context, progress).run(fills_page, transparency);
+  return LayerPainter(layer, tolerance, scratch, context, progress).run(fills_page, transparency);
 }
 
 }  // namespace quadrille

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pdf_shading.h"
+#include "pdf_underlay.h"
 #include "quadrille/run_context.h"
 
 namespace quadrille {
@@ -21,6 +22,9 @@ struct PaintedLayer {
   static constexpr int kPathUnits = 32;
 
   CoordinateGrid grid;
+  /// Lies beneath the colours, inside of its path where that is not empty.
+  Underlay underlay;
+  std::string underlay_region;
   std::vector<PaintStep> color;
   /// With `masked`: alpha in grays over black, and what is opaque, in white over those.
   bool masked = false;
@@ -32,9 +36,9 @@ struct PaintedLayer {
 enum class Transparency { soft_mask, over_white };
 
 /// The layer with colours within `tolerance` (see fit_cells()). `progress` gets the completed
-/// fraction. The same for any number of threads.
+/// fraction. The shadings' data are in the scratch file. The same for any number of threads.
 PaintedLayer paint_layer(const Layer& layer, bool fills_page, Transparency transparency,
-                         double tolerance, const RunContext& context,
+                         double tolerance, ScratchFile& scratch, const RunContext& context,
                          const std::function<void(double)>& progress);
 
 }  // namespace quadrille

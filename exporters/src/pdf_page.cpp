@@ -36,6 +36,12 @@ std::string predictor(const CoonsShading& shading) {
          " >>";
 }
 
+std::string image_matrix(const Underlay& underlay) {
+  const Eigen::Vector2d size = underlay.box.sizes(), corner = underlay.box.min();
+  return fixed(size.x()) + " 0 0 -" + fixed(size.y()) + ' ' + fixed(corner.x()) + ' ' +
+         fixed(corner.y() + size.y());
+}
+
 bool fills_page(const VectorImage& image, std::size_t index) {
   const Layer& layer = image.layers[index];
   return layer.transform.isApprox(Eigen::Affine2d::Identity(), 1e-12) &&

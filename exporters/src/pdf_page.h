@@ -4,6 +4,7 @@
 #include <string>
 
 #include "pdf_shading.h"
+#include "pdf_underlay.h"
 #include "quadrille/export.h"
 
 namespace quadrille {
@@ -26,6 +27,9 @@ std::string fixed(double number);
 std::string shading_entries(const CoonsShading& shading, const CoordinateGrid& grid);
 /// The parameters of the filter that inflates its data.
 std::string predictor(const CoonsShading& shading);
+
+/// The matrix that takes the unit square with y up to where the underlay lies, y down.
+std::string image_matrix(const Underlay& underlay);
 
 /// True when layer `index` covers the whole page, so that the page itself cuts it off.
 bool fills_page(const VectorImage& image, std::size_t index);

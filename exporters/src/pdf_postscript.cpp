@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <ostream>
+#include <span>
 
 #include "ending.h"
 #include "pdf_layer.h"
@@ -13,31 +14,46 @@
 namespace quadrille {
 namespace {
 
-/// The bytes in ASCII base 85, in lines, with the end mark (PostScript Language Reference, 3.13.3).
-std::string ascii85(const std::string& bytes) {
-  constexpr std::size_t kPerLine = 75;
-  std::string text;
-  std::size_t line = 0;
-  const auto put = [&](char c) {
-    text += c;
-    if (++line == kPerLine) text += '\n', line = 0;
-  };
-  for (std::size_t i = 0; i < bytes.size(); i += 4) {
-    const std::size_t count = std::min<std::size_t>(4, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      word = word << 8 | (k < count ? static_cast<std::uint8_t>(bytes[i + k]) : 0);
+/// Writes bytes in ASCII base 85, in lines, with the end mark (PostScript Language Reference,
+/// 3.13.3).
+class Ascii85 {
+ public:
+  explicit Ascii85(std::ostream& out) : out_(out) {}
+
+  void add(std::span<const std::uint8_t> bytes) {
+    for (const std::uint8_t byte : bytes) {
+      word_ = word_ << 8 | byte;
+      if (++count_ == 4) end_word();
     }
-    if (word == 0 && count == 4) {
-      put('z');
-      continue;
-    }
-    char digits[5];
-    for (int k = 4; k >= 0; --k, word /= 85) digits[k] = static_cast<char>('!' + word % 85);
-    for (std::size_t k = 0; k <= count; ++k) put(digits[k]);
   }
-  return text + "~>\n";
-}
+  void finish() {
+    if (const int bytes = count_; bytes > 0) {
+      word_ <<= 8 * (4 - bytes);
+      put_digits(bytes + 1);
+    }
+    out_ << "~>\n";
+  }
+
+ private:
+  void end_word() {
+    word_ == 0 ? put('z') : put_digits(5);
+    word_ = 0, count_ = 0;
+  }
+  void put_digits(int count) {
+    char digits[5];
+    for (int k = 4; k >= 0; --k, word_ /= 85) digits[k] = static_cast<char>('!' + word_ % 85);
+    for (int k = 0; k < count; ++k) put(digits[k]);
+  }
+  void put(char c) {
+    constexpr int kPerLine = 75;
+    out_ << c;
+    if (++column_ == kPerLine) out_ << '\n', column_ = 0;
+  }
+
+  std::ostream& out_;
+  std::uint32_t word_ = 0;
+  int count_ = 0, column_ = 0;
+};
 
 /// As a comment's text in parentheses: printable ASCII only.
 std::string comment_text(const std::string& title) {
@@ -70,9 +86,10 @@ class PostScriptWriter {
     for (std::size_t l = 0; l < image_.layers.size(); ++l) {
       const PaintedLayer layer =
           paint_layer(image_.layers[l], fills_page(image_, l), Transparency::over_white,
-                      options_.tolerance, context_, [&](double part) {
+                      options_.tolerance, scratch_, context_, [&](double part) {
                         context_.progress("write PostScript", (l + part) / image_.layers.size());
                       });
+      if (!layer.underlay.empty()) write_underlay(layer);
       for (const PaintStep& step : layer.color) write_step(step, layer.grid);
     }
     out_ << "grestore\nshowpage\nend\n%%EOF\n";
@@ -102,15 +119,38 @@ class PostScriptWriter {
   void write_step(const PaintStep& step, const CoordinateGrid& grid) {
     if (step.shading.empty()) return;
     out_ << "gsave\n";
-    if (!step.region.empty()) {
-      const std::string scale = fixed(1.0 / PaintedLayer::kPathUnits);
-      out_ << "matrix currentmatrix " << scale << " dup scale newpath\n"
-           << step.region << "setmatrix clip newpath\n";
-    }
+    clip(step.region);
     out_ << "{ /data currentfile /ASCII85Decode filter def\n<< "
          << shading_entries(step.shading, grid) << "\n/DataSource data " << predictor(step.shading)
-         << " /FlateDecode filter >> shfill data flushfile } exec\n"
-         << ascii85(step.shading.data) << "grestore\n";
+         << " /FlateDecode filter >> shfill data flushfile } exec\n";
+    Ascii85 text(out_);
+    scratch_.read(step.shading.data, [&](ScratchFile::Bytes part) { text.add(part); });
+    text.finish();
+    out_ << "grestore\n";
+  }
+
+  void write_underlay(const PaintedLayer& layer) {
+    const Underlay& image = layer.underlay;
+    const std::string width = to_text(static_cast<long long>(image.width)),
+                      height = to_text(static_cast<long long>(image.height));
+    out_ << "gsave\n";
+    clip(layer.underlay_region);
+    out_ << '[' << image_matrix(image) << "] concat\n"
+         << "{ /data currentfile /ASCII85Decode filter def " << width << ' ' << height << " 8 ["
+         << width << " 0 0 -" << height << " 0 " << height
+         << "] data false 3 colorimage data flushfile } exec\n";
+    Ascii85 text(out_);
+    text.add({reinterpret_cast<const std::uint8_t*>(image.rgb.data()), image.rgb.size()});
+    text.finish();
+    out_ << "grestore\n";
+  }
+
+  /// Cuts off what is painted until grestore.
+  void clip(const std::string& region) {
+    if (region.empty()) return;
+    const std::string scale = fixed(1.0 / PaintedLayer::kPathUnits);
+    out_ << "matrix currentmatrix " << scale << " dup scale newpath\n"
+         << region << "setmatrix clip newpath\n";
   }
 
   const VectorImage& image_;
@@ -118,6 +158,7 @@ class PostScriptWriter {
   bool encapsulated_;
   const RunContext& context_;
   PageSize size_;
+  ScratchFile scratch_;
   std::ostream& out_;
 };
 

@@ -1,5 +1,6 @@
 #include "pdf_region_path.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "subdivision.h"
@@ -34,10 +35,16 @@ class PathText {
 
  private:
   void point(const Eigen::Vector2d& p, const char* operation) {
-    text_ += to_text(std::llround(p.x() * units_)) + ' ' + to_text(std::llround(p.y() * units_));
-    text_ += ' ';
+    text_ += number(p.x()) + ' ' + number(p.y()) + ' ';
     text_ += operation;
     if (*operation) text_ += '\n';
+  }
+
+  /// Regions may pass around patches that are not painted because they are not finite.
+  std::string number(double pixel) const {
+    constexpr double kFarthest = 1e7;
+    const double near = std::isnan(pixel) ? 0 : std::clamp(pixel, -kFarthest, kFarthest);
+    return to_text(std::llround(near * units_));
   }
 
   const Layer& layer_;

@@ -16,7 +16,7 @@ using Geometry = BicubicHermite<Vector2d>;
 
 /// In pixels: how far patches overlap their neighbours, twice the step of the grid; how far they go
 /// on beyond the page, and beyond edges that are cut off with anti-aliasing or hidden.
-constexpr double kOverlap = 0.125, kBeyondPage = 0.5, kBeyondEdge = 0.75;
+constexpr double kOverlap = 0.0625, kBeyondPage = 0.5, kBeyondEdge = 0.75;
 /// The same in parameters of a patch, at most.
 constexpr double kWidestOverlap = 0.25, kWidestReach = 0.5;
 
@@ -120,13 +120,13 @@ CellTable::Node drawn_node(const CellTable& cells, int quad, const ParameterBox&
 class CoonsWriter {
  public:
   CoonsWriter(const Layer& layer, const PaintGroups& groups, const CellTable& cells,
-              const CoordinateGrid& grid, int channels)
+              const CoordinateGrid& grid, int channels, ScratchFile& scratch)
       : layer_(layer),
         groups_(groups),
         cells_(cells),
         grid_(grid),
         channels_(channels),
-        out_(record_bytes()) {}
+        out_(record_bytes(), scratch) {}
 
   int record_bytes() const { return 1 + 8 * point_bytes() + 2 * channels_; }
 
@@ -139,7 +139,7 @@ class CoonsWriter {
     }
   }
 
-  std::string finish() { return out_.finish(); }
+  ScratchRange finish() { return out_.finish(); }
 
  private:
   int point_bytes() const { return 2 * grid_.bits / 8; }
@@ -261,12 +261,12 @@ double CoordinateGrid::largest(int axis) const {
 CoonsShading coons_shading(const Layer& layer, const PaintGroups& groups,
                            const std::vector<PatchVisit>& visits, const CellTable& cells,
                            const CoordinateGrid& grid, ShadedQuantity quantity,
-                           const std::function<void(double)>& progress) {
+                           ScratchFile& scratch, const std::function<void(double)>& progress) {
   CoonsShading shading;
   shading.channels = channels_of(quantity);
-  CoonsWriter writer(layer, groups, cells, grid, shading.channels);
-  shading.record_bytes = writer.record_bytes();
   if (visits.empty()) return shading;
+  CoonsWriter writer(layer, groups, cells, grid, shading.channels, scratch);
+  shading.record_bytes = writer.record_bytes();
   writer.add_all(visits, progress);
   shading.data = writer.finish();
   return shading;

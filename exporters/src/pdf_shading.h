@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <functional>
-#include <string>
 
-#include "pdf_cells.h"
 #include "paint_groups.h"
+#include "pdf_cells.h"
 #include "pdf_order.h"
+#include "pdf_scratch.h"
 
 namespace quadrille {
 
@@ -26,7 +26,7 @@ struct CoordinateGrid {
 /// The data of a Coons patch mesh (shading type 6; ISO 32000-1, 8.7.4.5.7), with 8-bit flags and
 /// components, deflated with predictor 12 over records of `record_bytes`.
 struct CoonsShading {
-  std::string data;
+  ScratchRange data;
   int record_bytes = 0;
   int channels = 3;
   bool empty() const { return data.empty(); }
@@ -40,6 +40,6 @@ struct CoonsShading {
 CoonsShading coons_shading(const Layer& layer, const PaintGroups& groups,
                            const std::vector<PatchVisit>& visits, const CellTable& cells,
                            const CoordinateGrid& grid, ShadedQuantity quantity,
-                           const std::function<void(double)>& progress);
+                           ScratchFile& scratch, const std::function<void(double)>& progress);
 
 }  // namespace quadrille

@@ -3,25 +3,14 @@
 #include <algorithm>
 #include <string>
 
+#include "paintable_patch.h"
 #include "patch_opacity.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
 namespace {
 
-constexpr double kFarthest = 1e7;         // pixels
 constexpr double kInvisible = 0.5 / 255;  // alpha
-
-bool is_usable(const BicubicBezier<Eigen::Vector2d>& position, const BicubicBezier<Color>& color) {
-  for (int j = 0; j < 4; ++j) {
-    for (int i = 0; i < 4; ++i) {
-      // Written so that it is false for what is not a number.
-      const bool is_near = (position.control[j][i].array().abs() < kFarthest).all();
-      if (!is_near || !color.control[j][i].allFinite()) return false;
-    }
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -39,7 +28,7 @@ void SheetedLayer::find_patches() {
   for (int q = 0; q < count; ++q) {
     position_.push_back(to_bezier(placed_geometry(layer_, q)));
     color_.push_back(bezier_patch(layer_.patches, q).color);
-    if (is_usable(position_[q], color_[q])) continue;
+    if (is_paintable(position_[q], color_[q])) continue;
     throw Error(ErrorCode::invalid_argument,
                 "patch " + std::to_string(q) + " of layer '" + layer_.name +
                     "' is not finite or reaches farther than 10 million pixels; remove it or scale "

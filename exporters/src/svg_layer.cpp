@@ -1,7 +1,6 @@
 #include "svg_layer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -14,36 +13,13 @@ namespace {
 
 /// With more regions than this all count as one: each takes a pass over the mesh.
 constexpr int kMostRegions = 64;
-/// Farther from the origin, in pixels, nothing is painted.
-constexpr double kFarthest = 1e7;
-
-bool can_be_painted(const BicubicHermite<Eigen::Vector2d>& position,
-                    const BicubicHermite<Color>& color) {
-  const auto is_near = [](const Eigen::Vector2d& p) {  // false for what is not finite
-    return (p.array().abs() < kFarthest).all();
-  };
-  const auto is_finite = [](const Color& c) { return c.allFinite(); };
-  const auto all = [](const auto& patch, const auto& holds) {
-    for (int k = 0; k < 4; ++k) {
-      if (!holds(patch.value[k]) || !holds(patch.du[k]) || !holds(patch.dv[k]) ||
-          !holds(patch.duv[k])) {
-        return false;
-      }
-    }
-    return true;
-  };
-  return all(position, is_near) && all(color, is_finite);
-}
 
 }  // namespace
 
 SvgLayer::SvgLayer(const Layer& layer, double tolerance, double width, double height)
     : layer_(layer),
-      opacity_(patch_opacities(layer.patches, tolerance)),
+      opacity_(paint_opacities(layer, tolerance)),
       region_(smooth_regions(layer.patches.mesh)) {
-  for (int q = 0; q < mesh().quad_count(); ++q) {
-    if (!can_be_painted(geometry(q), color(q))) opacity_[q] = PatchOpacity::transparent;
-  }
   const bool too_many = std::ranges::any_of(region_, [](int r) { return r >= kMostRegions; });
   if (too_many) std::ranges::fill(region_, 0);
   number_parts(width, height);

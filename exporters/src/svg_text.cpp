@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "utf8_text.h"
+
 namespace quadrille {
 namespace {
 
@@ -36,7 +38,7 @@ std::string to_short_text(double number, int digits) {
 
 std::string xml_escaped(std::string_view text) {
   std::string escaped;
-  for (const char c : text) {
+  for (const char c : valid_utf8(text)) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == '&') {
       escaped += "&amp;";

@@ -12,7 +12,8 @@ std::string to_text(long long number);
 /// The number rounded to `digits` decimals, as short as SVG allows: ".5", "-.25", "1".
 std::string to_short_text(double number, int digits);
 
-/// The text with &, <, > and " as XML entities and without characters that XML forbids.
+/// The text with &, <, > and " as XML entities, in valid UTF-8 and without
+/// characters that XML forbids.
 std::string xml_escaped(std::string_view text);
 
 /// The head of an SVG document of width x height pixels, up to and with its title.
