@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "quadrille/error.h"
 #include "support/irregular_mesh.h"
 #include "support/random_patches.h"
 #include "support/torn_meshes.h"
@@ -102,6 +103,14 @@ TEST(GridDecomposition, RingsOfADiscAreCutOpen) {
   expect_decomposition(disc.mesh, grids);
   // The rings around the block of 4 x 4 have 16 quads around; none counts twice.
   EXPECT_EQ(grids[0].tops.size(), 16u * 7);
+}
+
+TEST(GridDecomposition, CanBeCancelled) {
+  const QuadMesh mesh = testing::lattice(60, 60, 60, 60);
+  const std::vector<unsigned char> kinds(mesh.quad_count(), 1);
+  RunContext context;
+  context.on_progress = [](const std::string&, double fraction) { return fraction <= 0; };
+  EXPECT_THROW(regular_grids(mesh, kinds, context), Error);
 }
 
 TEST(GridDecomposition, KindsAreKeptApart) {

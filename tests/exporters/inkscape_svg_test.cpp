@@ -160,6 +160,20 @@ TEST(InkscapeSvg, IsWellFormedAndHasAPathForEveryMesh) {
       "bicubic True True\nbicubic True True\n");
 }
 
+TEST(InkscapeSvg, LeavesOutWhatIsNotFiniteOrTooFar) {
+  for (const double far : {std::nan(""), HUGE_VAL, 1e300, -1e9}) {
+    PatchMesh patches = straight_patches(testing::lattice(4, 4, 80, 60));
+    patches.mesh.vertices[12] = Eigen::Vector2d(far, far);
+    const std::string svg = svg_of(testing::single_layer(std::move(patches), 80, 60), "far");
+    EXPECT_EQ(told_by_python(svg,
+                             "n = [float(t) for m in root.iter(s + 'meshgradient')\n"
+                             "     for e in m.iter(s + 'stop')\n"
+                             "     for t in e.get('path').replace('C', ' ').split()]\n"
+                             "print(len(n) > 0, max(abs(t) for t in n) < 1000)\n"),
+              "True True\n");
+  }
+}
+
 TEST(InkscapeSvg, ColorsAreGivenOnceForEveryNode) {
   const std::string svg = svg_of(linear_picture(5, 4));
   EXPECT_EQ(told_by_python(svg,

@@ -90,6 +90,16 @@ TEST_F(Pdf, ThePageMeasuresThePictureAtItsResolution) {
   EXPECT_THAT(log, HasSubstr("Quadrille"));
 }
 
+TEST_F(Pdf, ATitleOfAnyBytesIsText) {
+  PdfOptions options;
+  options.title = "a\xFF\xC3(b";
+  save(random_picture(), output("title.pdf"), options);
+  std::string log;
+  EXPECT_EQ(test::run({"qpdf", "--check", output("title.pdf")}, &log), 0) << log;
+  EXPECT_EQ(test::run({"pdfinfo", "-enc", "UTF-8", output("title.pdf")}, &log), 0);
+  EXPECT_THAT(log, HasSubstr("a\xEF\xBF\xBD\xEF\xBF\xBD(b"));
+}
+
 TEST_F(Pdf, AConstantPictureIsExact) {
   PatchMesh patches = testing::random_patches(5, 4, kWidth, kHeight, 1);
   testing::set_linear_colors(patches, Color(51, 102, 204, 255) / 255);
@@ -211,6 +221,12 @@ TEST_F(Pdf, HostileMeshesAreSound) {
     testing::set_random_colors(patches, 9);
     images.push_back(testing::single_layer(std::move(patches), kWidth, kHeight));
   }
+  for (const double far : {std::nan(""), HUGE_VAL, 1e300, -1e9}) {
+    for (const bool opaque : {true, false}) {
+      images.push_back(random_picture(opaque));
+      images.back().layers[0].patches.mesh.vertices[25] = Eigen::Vector2d(far, far);
+    }
+  }
   images.push_back({kWidth, kHeight, {}, {}});
   for (std::size_t i = 0; i < images.size(); ++i) {
     save(images[i], output("hostile.pdf"));
@@ -232,6 +248,12 @@ TEST_F(Pdf, AHundredThousandQuads) {
 
 TEST_F(Pdf, CancellingLeavesNoFile) {
   RunContext context;
+  context.on_progress = [](const std::string&, double) { return false; };
+  for (const double until : {0.0, 0.5, 0.96}) {
+    context.on_progress = [&](const std::string&, double part) { return part < until; };
+    EXPECT_THROW(save(random_picture(), output("cancelled.pdf"), {}, context), Error) << until;
+    EXPECT_FALSE(fs::exists(output("cancelled.pdf"))) << until;
+  }
   context.on_progress = [](const std::string&, double) { return false; };
   for (const char* name : {"cancelled.pdf", "cancelled.ps"}) {
     EXPECT_THROW(export_image(random_picture(), output(name), {}, context), Error);
