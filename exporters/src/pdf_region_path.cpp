@@ -1,6 +1,5 @@
 #include "pdf_region_path.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "subdivision.h"
@@ -40,11 +39,11 @@ class PathText {
     if (*operation) text_ += '\n';
   }
 
-  /// Regions may pass around patches that are not painted because they are not finite.
+  /// Regions may pass around patches that are not painted because they are not finite or too far;
+  /// viewers take seconds for paths that go there.
   std::string number(double pixel) const {
     constexpr double kFarthest = 1e7;
-    const double near = std::isnan(pixel) ? 0 : std::clamp(pixel, -kFarthest, kFarthest);
-    return to_text(std::llround(near * units_));
+    return to_text(std::llround(std::abs(pixel) < kFarthest ? pixel * units_ : 0));
   }
 
   const Layer& layer_;
