@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "patch_sides.h"
 
@@ -15,9 +16,11 @@ using Geometry = BicubicHermite<Vector2d>;
 /// How far cells go on beyond a clip, in bleeds: all over the pixels that the clip halves.
 constexpr double kClippedBleed = 1.5;
 /// The least sine of the angle between a side and the next along which a corner moves, the cosines
-/// between two bleeds from which they are about one, and below which they make a spike; and the least
-/// ratio of their lengths with which they meet.
+/// between two bleeds from which they are about one, and below which they make a spike; and the
+/// least ratio of their lengths with which they meet.
 constexpr double kLeastSlope = 0.5, kStraight = 0.95, kSpike = -0.3, kLeastRatio = 0.7;
+/// How often a bleed is halved.
+constexpr int kMostHalvings = 4;
 /// Holes with more cells than this are kept.
 constexpr std::size_t kMostHoleCells = 64;
 
@@ -202,8 +205,8 @@ class Outliner {
   bool all_later_at_vertex(int after) const {
     const CellMesh::Side& side = mesh_.side(after);
     const int q = mesh_.quad(side.cell);
-    const int corner = side.from.y() == 0 ? (side.from.x() == 0 ? 0 : 1)
-                                          : (side.from.x() == 0 ? 3 : 2);
+    const int corner =
+        side.from.y() == 0 ? (side.from.x() == 0 ? 0 : 1) : (side.from.x() == 0 ? 3 : 2);
     const QuadMesh& quads = layer_.mesh();
     const auto fan = quads.fan(quads.origin(4 * q + corner));
     return std::all_of(fan.begin(), fan.end(), [&](int h) {
@@ -229,29 +232,49 @@ class Outliner {
     return (to_near.norm() > 1e-6 ? to_near : Vector2d(far - from)).normalized();
   }
 
-  /// The bleed of a side at one of its points.
+  /// The bleed of a side at one of its points. Where cells are thin, others that are painted
+  /// earlier may lie beyond them: it is halved until it ends in a cell that is painted later.
   Vector2d step_beyond(int s, const Vector2d& uv) const {
     const CellMesh::Side& side = mesh_.side(s);
     const Geometry& g = mesh_.geometry(side.cell);
     const Vector2d point = g.at(uv.x(), uv.y());
-    const double bleed =
-        beyond(s) == CellMesh::Beyond::clip ? kClippedBleed * bleed_ : bleed_;
-    const bool across_u = side.k == 1 || side.k == 3;
-    if (!side.on_border) {
-      const int axis = across_u ? 0 : 1;
-      const double step = parameter_step(g, uv, across_u, bleed);
-      Vector2d target = uv;
-      target[axis] = std::clamp(uv[axis] + (side.k == 1 || side.k == 2 ? step : -step), 0.0, 1.0);
-      return g.at(target.x(), target.y()) - point;
+    const bool is_clip = beyond(s) == CellMesh::Beyond::clip;
+    double bleed = is_clip ? kClippedBleed * bleed_ : bleed_;
+    const int q = mesh_.quad(side.cell), twin = layer_.mesh().twin(4 * q + side.k);
+    if (side.on_border && twin < 0) return outward(g, side, uv, bleed);
+    Vector2d target = point;
+    for (int halving = 0; halving < kMostHalvings; ++halving, bleed *= 0.5) {
+      const auto [quad, at] = side.on_border ? across_border(side, uv, twin, bleed)
+                                             : std::pair(q, across_line(g, side, uv, bleed));
+      const int cell = mesh_.cell_with(quad, at);
+      const Geometry& its = cell >= 0 ? mesh_.geometry(cell) : neighbor(quad);
+      target = its.at(at.x(), at.y());
+      if (is_clip || cell < 0 || group_.holds(cell) || group_.is_later(cell)) break;
     }
-    const int twin = layer_.mesh().twin(4 * mesh_.quad(side.cell) + side.k);
-    if (twin < 0) return outward(g, side, uv, bleed);
-    const int other = QuadMesh::quad_of(twin);
-    const double along = across_u ? uv.y() : uv.x();
-    const double place = side.k < 2 ? along : 1 - along;
+    return target - point;
+  }
+
+  /// Parameters beyond a side within a patch.
+  static Vector2d across_line(const Geometry& g, const CellMesh::Side& side, const Vector2d& uv,
+                              double bleed) {
+    const bool across_u = side.k == 1 || side.k == 3;
+    const int axis = across_u ? 0 : 1;
+    const double step = parameter_step(g, uv, across_u, bleed);
+    Vector2d target = uv;
+    target[axis] = std::clamp(uv[axis] + (side.k == 1 || side.k == 2 ? step : -step), 0.0, 1.0);
+    return target;
+  }
+
+  /// The patch beyond a side that lies on the border of its own, and parameters there.
+  std::pair<int, Vector2d> across_border(const CellMesh::Side& side, const Vector2d& uv, int twin,
+                                         double bleed) const {
+    const double along = side.k == 1 || side.k == 3 ? uv.y() : uv.x();
+    const double place = side.k < 2 ? 1 - along : along;
+    const int quad = QuadMesh::quad_of(twin), k = QuadMesh::corner_of(twin);
     const int cell = mesh_.cell_at(twin);
-    const Geometry& its = cell >= 0 ? mesh_.geometry(cell) : neighbor(other);
-    return inside(its, QuadMesh::corner_of(twin), 1 - place, bleed) - point;
+    const Geometry& its = cell >= 0 ? mesh_.geometry(cell) : neighbor(quad);
+    const double depth = parameter_step(its, on_side(k, place), k == 1 || k == 3, bleed);
+    return {quad, on_side(k, place, depth)};
   }
 
   /// The same beyond the border of the mesh.

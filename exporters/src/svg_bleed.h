@@ -9,13 +9,13 @@
 namespace quadrille {
 
 /// Farthest that lines may be from seams, in pixels.
-inline constexpr double kSeamFlatness = 0.35;
+inline constexpr double kSeamFlatness = 0.2;
 
 /// A group of cells as it is painted.
 struct CellGroup {
   std::vector<int> cells;
-  std::function<bool(int)> holds;          ///< whether a cell is in the group
-  std::function<bool(int)> is_later;       ///< whether a cell is painted after the group
+  std::function<bool(int)> holds;     ///< whether a cell is in the group
+  std::function<bool(int)> is_later;  ///< whether a cell is painted after the group
 };
 
 /// The outlines around a group of cells and its holes with their bleed: wherever the group borders

@@ -70,6 +70,17 @@ int CellMesh::cell_at(int h) const {
   return found == patches_.end() ? -1 : found->second.corner_cell[QuadMesh::corner_of(h)];
 }
 
+int CellMesh::cell_with(int quad, const Vector2d& uv) const {
+  const auto found = patches_.find(quad);
+  if (found == patches_.end()) return -1;
+  const Patch& patch = found->second;
+  for (int c = patch.first_cell; c < patch.first_cell + patch.cell_count; ++c) {
+    const ParameterBox& b = cells_[c].box;
+    if (uv.x() >= b.u0 && uv.x() <= b.u1 && uv.y() >= b.v0 && uv.y() <= b.v1) return c;
+  }
+  return -1;
+}
+
 PlaneCurve CellMesh::curve(int s) const {
   const Side& side = sides_[s];
   const Vector2d low = side.from.cwiseMin(side.to), high = side.from.cwiseMax(side.to);

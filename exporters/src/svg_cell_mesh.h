@@ -64,6 +64,8 @@ class CellMesh {
   }
   /// The cell at the origin of half-edge h in its quad, or -1 when the quad is none of these.
   int cell_at(int h) const;
+  /// A cell of a patch that holds these parameters, or -1 when the quad is none of these.
+  int cell_with(int quad, const Eigen::Vector2d& uv) const;
 
  private:
   struct Patch {

@@ -95,8 +95,8 @@ class PatchDivider {
     for (int k = 0; k < 4; ++k) {
       for (int i = 0; i < kPoints; ++i) {
         const Eigen::Vector2d at = on_side(k, double(i) / kPoints);
-        simplifier.add(position_.at(box.u0 + (box.u1 - box.u0) * at.x(),
-                                    box.v0 + (box.v1 - box.v0) * at.y()));
+        simplifier.add(
+            position_.at(box.u0 + (box.u1 - box.u0) * at.x(), box.v0 + (box.v1 - box.v0) * at.y()));
       }
     }
     return simplifier.outline();
@@ -161,11 +161,12 @@ double price_of(const SvgDetail& detail, CellPaint paint) {
 }
 
 PricedFill priced_fill(const std::vector<SvgOutline>& outlines, const CellSamples& samples,
-                       double price, int units_per_pixel) {
+                       double price, int units_per_pixel, double limit) {
   SvgPathData path(units_per_pixel);
   for (const SvgOutline& outline : outlines) path.append(outline);
   const double bytes = kPathBytes + kPathDataBytes * double(path.text().size());
-  const CellFit fit = fit_cell(samples, path.bounds(), price, kRepeatedPathBytes);
+  const CellFit fit =
+      fit_cell(samples, path.bounds(), price, kRepeatedPathBytes, limit - price * bytes);
   return {fit.fill, fit.squared_error, fit.cost(price) + price * bytes};
 }
 

@@ -27,12 +27,14 @@ std::vector<SvgCell> divide_into_cells(const SvgLayer& layer, int quad, CellPain
 /// The price of a byte for cells that show this.
 double price_of(const SvgDetail& detail, CellPaint paint);
 
-/// The fill of a cell or of several together, with their outlines, and what it costs.
+/// The fill of a cell or of several together, with their outlines, and what it costs; about the
+/// best fill where that costs less than `limit`.
 struct PricedFill {
   CellFill fill;
   double error = 0, cost = 0;
 };
 PricedFill priced_fill(const std::vector<SvgOutline>& outlines, const CellSamples& samples,
-                       double price, int units_per_pixel);
+                       double price, int units_per_pixel,
+                       double limit = std::numeric_limits<double>::max());
 
 }  // namespace quadrille

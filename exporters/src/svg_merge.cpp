@@ -56,9 +56,8 @@ class Merger {
   std::vector<MergedCells> run() {
     do {
       std::vector<Pair> fresh = changed_pairs();
-      tbb::parallel_for(std::size_t{0}, fresh.size(), [&](std::size_t i) {
-        fresh[i].gain = gain(fresh[i].a, fresh[i].b);
-      });
+      tbb::parallel_for(std::size_t{0}, fresh.size(),
+                        [&](std::size_t i) { fresh[i].gain = gain(fresh[i].a, fresh[i].b); });
       pairs_.insert(pairs_.end(), fresh.begin(), fresh.end());
       for (Group& group : groups_) group.has_changed = false;
     } while (merge_best());
@@ -107,9 +106,11 @@ class Merger {
     both.cells.insert(both.cells.end(), second.cells.begin(), second.cells.end());
     both.is_later = [](int) { return false; };
     both.holds = [&](int cell) { return group_of_[cell] == a || group_of_[cell] == b; };
-    const PricedFill fill = priced_fill(group_outlines(mesh_, both, 0),
-                                        joined(first.samples, second.samples), price_, units_);
-    return first.cost + second.cost - fill.cost;
+    const double apart = first.cost + second.cost;
+    const PricedFill fill =
+        priced_fill(group_outlines(mesh_, both, 0), joined(first.samples, second.samples), price_,
+                    units_, apart);
+    return apart - fill.cost;
   }
 
   /// Merges pairs, the best first, each group once at most. False when none is worth it.

@@ -78,9 +78,8 @@ SvgOutline OutlineSimplifier::outline() {
     while (next < count && !kept[next]) ++next;
     const Vector2d end = steps_[next % count].point;
     const bool is_exact = step.is_exact || steps_[next % count].is_exact;
-    const bool is_line =
-        !step.is_exact ||
-        chord_distance({step.point, step.control1, step.control2, end}) <= kExactFlatness;
+    const bool is_line = !step.is_exact || chord_distance({step.point, step.control1, step.control2,
+                                                           end}) <= kExactFlatness;
     outline.pieces.push_back({is_line, step.control1, step.control2, end, is_exact});
     i = next;
   }

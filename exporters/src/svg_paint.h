@@ -16,7 +16,7 @@ struct SvgPaint {
   CellFill fill;
 };
 
-/// The paint of some patches, in its order: large areas first, so that small ones lie above them.
+/// The paint of some patches, in its order.
 /// The patches are all those of one or several tiles of the layer. Works on several threads.
 std::vector<SvgPaint> paint_patches(const SvgLayer& layer, const std::vector<int>& quads,
                                     CellPaint paint, const SvgDetail& detail);

@@ -104,10 +104,11 @@ class SvgWriter {
 
   void write_cells(const SvgLayer& layer, const std::vector<int>& quads, CellPaint paint) {
     for (auto begin = quads.begin(); begin != quads.end();) {
-      const auto end = std::find_if(
-          begin, quads.end(), [&](int q) { return layer.tile(q) != layer.tile(*begin); });
-      const std::vector<SvgPaint> paints = arena_.execute(
-          [&] { return paint_patches(layer, {begin, end}, paint, detail_); });
+      const auto end = std::find_if(begin, quads.end(),
+                                    [&](int q) { return layer.tile(q) != layer.tile(*begin); });
+      const std::vector<SvgPaint> paints = arena_.execute([&] {
+        return paint_patches(layer, {begin, end}, paint, detail_);
+      });
       for (const SvgPaint& one : paints) cells_.add(one.outlines, one.fill);
       if (paint == CellPaint::color) painted_ += static_cast<int>(end - begin);
       context_.progress("write SVG", double(painted_) / image_.patch_count());
