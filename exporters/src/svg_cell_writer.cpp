@@ -10,6 +10,8 @@ namespace {
 
 /// Equal gradients are found among this many recent ones.
 constexpr std::size_t kRemembered = 4096;
+/// A path of one colour is ended when its data is longer than this, in bytes.
+constexpr std::size_t kLongestFlatPath = 1 << 16;
 
 std::string hex(const LinearGradient::Rgb& rgb) {
   constexpr char kDigits[] = "0123456789abcdef";
@@ -49,17 +51,17 @@ std::string stops_of(const LinearGradient& g) {
 
 }  // namespace
 
-void SvgCellWriter::add(const SvgOutline& outline, const CellFill& fill) {
+void SvgCellWriter::add(const std::vector<SvgOutline>& outlines, const CellFill& fill) {
   if (fill.base.stop_count == 1) {
     const std::string color = hex(fill.base.stops[0]);
-    if (color != flat_color_) finish();
+    if (color != flat_color_ || flat_path_.text().size() > kLongestFlatPath) finish();
     flat_color_ = color;
-    flat_path_.append(outline);
+    for (const SvgOutline& outline : outlines) flat_path_.append(outline);
     return;
   }
   finish();
   SvgPathData path(units_);
-  path.append(outline);
+  for (const SvgOutline& outline : outlines) path.append(outline);
   const std::string base = gradient_id(fill.base);
   const bool layered = fill.overlay_opacity > 0;
   const std::string overlay = layered ? gradient_id(fill.overlay) : "";

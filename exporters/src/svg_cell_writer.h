@@ -3,6 +3,7 @@
 #include <ostream>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "svg_detail.h"
 #include "svg_gradient.h"
@@ -16,7 +17,7 @@ class SvgCellWriter {
  public:
   SvgCellWriter(std::ostream& out, const SvgDetail& detail)
       : out_(out), units_(detail.units_per_pixel), flat_path_(units_) {}
-  void add(const SvgOutline& outline, const CellFill& fill);
+  void add(const std::vector<SvgOutline>& outlines, const CellFill& fill);
   /// Ends the open path; to be called before anything else is written to the stream.
   void finish();
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "patch_sides.h"
+#include "svg_bleed.h"
 #include "svg_path.h"
 
 namespace quadrille {
@@ -22,16 +24,13 @@ constexpr double kLeastCellBytes = 30;
 
 class PatchDivider {
  public:
-  PatchDivider(const SvgLayer& layer, int quad, CellPaint paint, const SvgDetail& detail,
-               double bleed)
-      : layer_(layer),
-        quad_(quad),
+  PatchDivider(const SvgLayer& layer, int quad, CellPaint paint, const SvgDetail& detail)
+      : quad_(quad),
         position_(layer.geometry(quad)),
         color_(layer.color(quad)),
         paint_(paint),
-        price_(paint == CellPaint::alpha ? detail.price / kAlphaCounts : detail.price),
-        units_(detail.units_per_pixel),
-        bleed_(bleed) {}
+        price_(price_of(detail, paint)),
+        units_(detail.units_per_pixel) {}
 
   std::vector<SvgCell> run() {
     const ParameterBox whole;
@@ -83,16 +82,24 @@ class PatchDivider {
   static double cost(const Halves& halves) { return halves[0].cost + halves[1].cost; }
 
   Candidate candidate(const ParameterBox& box) const {
-    Candidate found;
-    found.cell.outline = cell_outline(layer_, quad_, box, bleed_);
-    SvgPathData path(units_);
-    path.append(found.cell.outline);
-    const double bytes = kPathBytes + kPathDataBytes * double(path.text().size());
-    const CellFit fit = fit_cell(samples(box), path.bounds(), price_, kRepeatedPathBytes);
-    found.cell.fill = fit.fill;
-    found.error = fit.squared_error;
-    found.cost = fit.cost(price_) + price_ * bytes;
+    Candidate found{{{quad_, box}, samples(box), 0}, 0, 0};
+    const PricedFill fill = priced_fill({outline(box)}, found.cell.samples, price_, units_);
+    found.error = fill.error;
+    found.cost = found.cell.cost = fill.cost;
     return found;
+  }
+
+  SvgOutline outline(const ParameterBox& box) const {
+    constexpr int kPoints = 4;  // of a side
+    OutlineSimplifier simplifier(kSeamFlatness);
+    for (int k = 0; k < 4; ++k) {
+      for (int i = 0; i < kPoints; ++i) {
+        const Eigen::Vector2d at = on_side(k, double(i) / kPoints);
+        simplifier.add(
+            position_.at(box.u0 + (box.u1 - box.u0) * at.x(), box.v0 + (box.v1 - box.v0) * at.y()));
+      }
+    }
+    return simplifier.outline();
   }
 
   CellSamples samples(const ParameterBox& box) const {
@@ -139,21 +146,33 @@ class PatchDivider {
     return position_.derivative_v(u, v).norm() * (box.v1 - box.v0);
   }
 
-  const SvgLayer& layer_;
   int quad_;
   BicubicHermite<Eigen::Vector2d> position_;
   BicubicHermite<Color> color_;
   CellPaint paint_;
   double price_;
   int units_;
-  double bleed_;
 };
 
 }  // namespace
 
+double price_of(const SvgDetail& detail, CellPaint paint) {
+  return paint == CellPaint::alpha ? detail.price / kAlphaCounts : detail.price;
+}
+
+PricedFill priced_fill(const std::vector<SvgOutline>& outlines, const CellSamples& samples,
+                       double price, int units_per_pixel, double limit) {
+  SvgPathData path(units_per_pixel);
+  for (const SvgOutline& outline : outlines) path.append(outline);
+  const double bytes = kPathBytes + kPathDataBytes * double(path.text().size());
+  const CellFit fit =
+      fit_cell(samples, path.bounds(), price, kRepeatedPathBytes, limit - price * bytes);
+  return {fit.fill, fit.squared_error, fit.cost(price) + price * bytes};
+}
+
 std::vector<SvgCell> divide_into_cells(const SvgLayer& layer, int quad, CellPaint paint,
-                                       const SvgDetail& detail, double bleed) {
-  return PatchDivider(layer, quad, paint, detail, bleed).run();
+                                       const SvgDetail& detail) {
+  return PatchDivider(layer, quad, paint, detail).run();
 }
 
 }  // namespace quadrille

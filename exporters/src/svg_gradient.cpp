@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "svg_ridge.h"
 
@@ -19,6 +20,8 @@ constexpr int kScoutStops = 4, kMostOfTwo = 6;
 /// Opacities of the second gradient, the least first: the first gradient alone is then nearest to
 /// the whole, and half-covered pixels at seams err least.
 constexpr double kOpacities[] = {0.2, 0.35, 0.5, 0.65};
+/// By what factor the cost of two gradients may lie above the limit with scouts for stops.
+constexpr double kHopeless = 2;
 /// What the parts of a fill take in a compressed file, in bytes.
 constexpr double kFlatBytes = 5, kGradientBytes = 11, kStopBytes = 5.7;
 
@@ -41,8 +44,8 @@ LinearGradient gradient_of(const RidgeAxis& axis, int direction, const Stops& st
 class CellFitter {
  public:
   CellFitter(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double price,
-             double again)
-      : s_(samples), price_(price), again_(again) {
+             double again, double limit)
+      : s_(samples), price_(price), again_(again), limit_(limit) {
     for (int d = 0; d < LinearGradient::kDirections; ++d) {
       axes_[d] = ridge_axis(samples, bounds, d);
     }
@@ -118,13 +121,17 @@ class CellFitter {
         try_pair(best, scouts[a], a, scouts[b], b);
       }
     }
+    // Other numbers of stops rarely save more than this.
+    if (best.cost > kHopeless * limit_) return {};
     const auto [a, b] = best.direction;
-    for (const int stops_a : kCounts) {
-      for (const int stops_b : kCounts) {
-        if (stops_a > kMostOfTwo || stops_b > kMostOfTwo) continue;
-        try_pair(best, RidgeSystem(s_, axes_[a], stops_a), a, RidgeSystem(s_, axes_[b], stops_b),
-                 b);
-      }
+    std::vector<RidgeSystem> systems[2];
+    for (const int stops : kCounts) {
+      if (stops > kMostOfTwo) continue;
+      systems[0].emplace_back(s_, axes_[a], stops);
+      systems[1].emplace_back(s_, axes_[b], stops);
+    }
+    for (const RidgeSystem& system_a : systems[0]) {
+      for (const RidgeSystem& system_b : systems[1]) try_pair(best, system_a, a, system_b, b);
     }
     return layered(best);
   }
@@ -197,7 +204,7 @@ class CellFitter {
   }
 
   const CellSamples& s_;
-  double price_, again_;
+  double price_, again_, limit_;
   std::array<RidgeAxis, LinearGradient::kDirections> axes_;
   double total_ = 0, squares_ = 0;
   Array3d mean_ = Array3d::Zero();
@@ -214,8 +221,8 @@ LinearGradient::Rgb rounded_color(const Array3d& color) {
 }
 
 CellFit fit_cell(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double price,
-                 double again) {
-  return CellFitter(samples, bounds, price, again).run();
+                 double again, double limit) {
+  return CellFitter(samples, bounds, price, again, limit).run();
 }
 
 }  // namespace quadrille

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace quadrille {
 
@@ -52,8 +53,9 @@ struct CellFit {
 
 /// About the fill with the lowest cost where a byte of a compressed file costs `price`. The bounds
 /// are those of what will be painted; `again` is what painting the outline once more takes, in
-/// bytes. Stop colours minimise the squared error.
+/// bytes. Stop colours minimise the squared error. A fill that costs more than `limit` need not be
+/// the best.
 CellFit fit_cell(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double price,
-                 double again);
+                 double again, double limit = std::numeric_limits<double>::max());
 
 }  // namespace quadrille

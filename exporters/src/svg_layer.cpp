@@ -7,12 +7,15 @@
 #include "quadrille/mesh_region.h"
 #include "subdivision.h"
 #include "svg_clip.h"
+#include "svg_tiles.h"
 
 namespace quadrille {
 namespace {
 
 /// With more regions than this all count as one: each takes a pass over the mesh.
 constexpr int kMostRegions = 64;
+/// The most patches of a tile, all of which are worked on together: bounds the memory.
+constexpr int kTileSize = 512;
 
 }  // namespace
 
@@ -23,6 +26,7 @@ SvgLayer::SvgLayer(const Layer& layer, double tolerance, double width, double he
   const bool too_many = std::ranges::any_of(region_, [](int r) { return r >= kMostRegions; });
   if (too_many) std::ranges::fill(region_, 0);
   number_parts(width, height);
+  number_tiles();
 }
 
 void SvgLayer::number_parts(double width, double height) {
@@ -41,11 +45,27 @@ void SvgLayer::number_parts(double width, double height) {
   }
 }
 
+void SvgLayer::number_tiles() {
+  tile_.assign(mesh().quad_count(), 0);
+  int count = 0;
+  std::vector<Eigen::Vector2d> corners(mesh().quad_count());
+  for (int q = 0; q < mesh().quad_count(); ++q) corners[q] = mesh().vertices[mesh().quads()[q][0]];
+  for (const PatchOpacity opacity : {PatchOpacity::translucent, PatchOpacity::opaque}) {
+    const std::vector<int>& number = part_or_region(opacity);
+    std::map<int, std::vector<int>> sets;
+    for (const int q : patches_with(opacity_, opacity)) sets[number[q]].push_back(q);
+    for (auto& [set, quads] : sets) {
+      for (const auto& tile : divide_into_tiles(std::move(quads), corners, kTileSize)) {
+        for (const int q : tile) tile_[q] = count;
+        ++count;
+      }
+    }
+  }
+}
+
 std::vector<int> SvgLayer::quads(PatchOpacity opacity) const {
   std::vector<int> list = patches_with(opacity_, opacity);
-  const bool in_parts = opacity == PatchOpacity::opaque;
-  const std::vector<int>& number = in_parts ? parts_.group : region_;
-  std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return number[a] < number[b]; });
+  std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return tile_[a] < tile_[b]; });
   return list;
 }
 
@@ -66,8 +86,7 @@ bool SvgLayer::is_painted_later(int quad, int other) const {
   const PatchOpacity mine = opacity_[quad], its = opacity_[other];
   if (its == PatchOpacity::transparent) return false;
   if (mine != its) return its == PatchOpacity::opaque;
-  const std::vector<int>& number = its == PatchOpacity::opaque ? parts_.group : region_;
-  return std::pair(number[other], other) > std::pair(number[quad], quad);
+  return std::pair(tile_[other], other) > std::pair(tile_[quad], quad);
 }
 
 }  // namespace quadrille

@@ -39,14 +39,22 @@ class SvgLayer {
   bool is_opaque(int quad) const { return opacity(quad) == PatchOpacity::opaque; }
   /// Quads of this opacity in painting order.
   std::vector<int> quads(PatchOpacity opacity) const;
+  /// Number of the tile of a quad that is painted. Tiles are compact, follow each other in painting
+  /// order, and lie within a part or region.
+  int tile(int quad) const { return tile_[quad]; }
 
  private:
   void number_parts(double width, double height);
+  void number_tiles();
+  const std::vector<int>& part_or_region(PatchOpacity opacity) const {
+    return opacity == PatchOpacity::opaque ? parts_.group : region_;
+  }
 
   const Layer& layer_;
   std::vector<PatchOpacity> opacity_;
   std::vector<int> region_;
-  PaintGroups parts_;  ///< of the opaque quads
+  PaintGroups parts_;      ///< of the opaque quads
+  std::vector<int> tile_;  ///< numbers rise with those of parts and regions
 };
 
 }  // namespace quadrille

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "subdivision.h"
-#include "svg_layer.h"
 
 namespace quadrille {
 
@@ -14,18 +13,36 @@ struct SvgOutline {
     bool is_line;
     Eigen::Vector2d control1, control2;  ///< of a cubic
     Eigen::Vector2d end;
+    bool is_exact = false;  ///< ends on the outline of the mesh or a tear: nothing covers its end
   };
-  bool is_exact = false;  ///< runs along the outline of the mesh or a tear: nothing covers its end
-  Eigen::Vector2d start = {0, 0};
+  Eigen::Vector2d start = {0, 0};  ///< as exact as the last piece's end
   std::vector<Piece> pieces;
 };
 
-/// The outline of a cell of a patch with its bleed: wherever the cell borders on something that is
-/// painted later, it goes on underneath by `bleed` pixels, within the later cells of its own patch
-/// and within the later patches beside it and around its corners; and a little further beyond a
-/// clip. Toward whatever else is painted earlier it ends exactly. Without bleed, anti-aliased cells
-/// let the background shine through along their seams; where several end in one pixel of an
-/// outline, their shares of it would not add up.
-SvgOutline cell_outline(const SvgLayer& layer, int quad, const ParameterBox& cell, double bleed);
+/// Makes a closed outline with few lines. Where the outline need not be exact, it stays within
+/// `tolerance` pixels of the lines through the points that are added (Douglas and Peucker, 1973).
+class OutlineSimplifier {
+ public:
+  explicit OutlineSimplifier(double tolerance) : tolerance_(tolerance) {}
+  /// A point, and a line from it to what is added next.
+  void add(const Eigen::Vector2d& point) { steps_.push_back({false, point, point, point}); }
+  /// A curve that is kept as it is, to where what is added next begins.
+  void add_exact(const PlaneCurve& curve) {
+    steps_.push_back({true, curve[0], curve[1], curve[2]});
+  }
+  SvgOutline outline();
+
+ private:
+  struct Step {
+    bool is_exact;
+    Eigen::Vector2d point, control1, control2;
+  };
+  bool ends_exactly(std::size_t i) const;
+  std::size_t anchor() const;
+  void keep_between(std::size_t first, std::size_t last, std::vector<char>& kept) const;
+
+  double tolerance_;
+  std::vector<Step> steps_;
+};
 
 }  // namespace quadrille

@@ -32,18 +32,18 @@ SvgPathData::Point SvgPathData::to_exact(const Eigen::Vector2d& p, bool is_exact
 }
 
 void SvgPathData::append(const SvgOutline& outline) {
-  const auto place = [&](const Eigen::Vector2d& p) { return to_exact(p, outline.is_exact); };
-  const Point start = place(outline.start);
+  if (outline.pieces.empty()) return;
+  const Point start = to_exact(outline.start, outline.pieces.back().is_exact);
   command_ = 0;  // each subpath says its own m
   write('m', {start - at_});
   at_ = start;
   bounds_.extend(start.cast<double>());
   for (std::size_t i = 0; i < outline.pieces.size(); ++i) {
     const SvgOutline::Piece& piece = outline.pieces[i];
-    const Point end = place(piece.end);
+    const Point end = to_exact(piece.end, piece.is_exact);
     const bool closes = i + 1 == outline.pieces.size() && end == start;  // as filling does
     if (!piece.is_line) {
-      cubic_to(place(piece.control1), place(piece.control2), end);
+      cubic_to(to_exact(piece.control1, true), to_exact(piece.control2, true), end);
     } else if (end != at_ && !closes) {
       line_to(end);
     }

@@ -8,7 +8,7 @@
 namespace quadrille {
 
 /// Path data of outlines with coordinates as integers, in units of a part of a pixel; those of
-/// exact outlines in eighths of it.
+/// exact outlines in tenths of it.
 class SvgPathData {
  public:
   explicit SvgPathData(int units_per_pixel) : units_(units_per_pixel) {}
@@ -21,7 +21,7 @@ class SvgPathData {
 
  private:
   using Point = Eigen::Matrix<long long, 2, 1>;  ///< in exact units
-  static constexpr int kExact = 8;               ///< exact units per unit
+  static constexpr int kExact = 10;              ///< exact units per unit
 
   void write(char command, std::initializer_list<Point> points);
   void write_number(long long number, bool separate);

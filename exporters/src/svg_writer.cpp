@@ -1,6 +1,5 @@
 #include "svg_writer.h"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -9,20 +8,15 @@
 
 #include "arena_size.h"
 #include "svg_cell_writer.h"
-#include "svg_cells.h"
 #include "svg_clip.h"
 #include "svg_layer.h"
+#include "svg_paint.h"
 #include "svg_text.h"
 #include "svg_underlay.h"
 
 namespace quadrille {
 namespace {
 
-/// How far a cell goes on under what is painted later, in pixels of the picture: at scale 1 and
-/// above, a device pixel on a seam is then covered by the first cell alone.
-constexpr double kBleed = 1;
-/// Patches that are worked on together; bounds the memory.
-constexpr int kChunk = 512;
 /// Alpha within this of 0 or 1 counts as such.
 constexpr double kAlphaTolerance = 2.0 / 255;
 
@@ -71,7 +65,7 @@ class SvgWriter {
     for (const UnderlayGroup& group : groups) {
       CellFill fill;
       fill.base.stops[0] = rounded_color(group.color);
-      for (const SvgOutline& outline : group.outlines) cells_.add(outline, fill);
+      cells_.add(group.outlines, fill);
     }
     cells_.finish();
     out_ << "</g>\n";
@@ -109,20 +103,16 @@ class SvgWriter {
   }
 
   void write_cells(const SvgLayer& layer, const std::vector<int>& quads, CellPaint paint) {
-    const int count = static_cast<int>(quads.size());
-    for (int begin = 0; begin < count; begin += kChunk) {
-      const int end = std::min(begin + kChunk, count);
-      std::vector<std::vector<SvgCell>> painted(end - begin);
-      arena_.execute([&] {
-        tbb::parallel_for(begin, end, [&](int i) {
-          painted[i - begin] = divide_into_cells(layer, quads[i], paint, detail_, kBleed);
-        });
+    for (auto begin = quads.begin(); begin != quads.end();) {
+      const auto end = std::find_if(begin, quads.end(),
+                                    [&](int q) { return layer.tile(q) != layer.tile(*begin); });
+      const std::vector<SvgPaint> paints = arena_.execute([&] {
+        return paint_patches(layer, {begin, end}, paint, detail_);
       });
-      for (const auto& patch : painted) {
-        for (const SvgCell& cell : patch) cells_.add(cell.outline, cell.fill);
-      }
-      if (paint == CellPaint::color) painted_ += end - begin;
+      for (const SvgPaint& one : paints) cells_.add(one.outlines, one.fill);
+      if (paint == CellPaint::color) painted_ += static_cast<int>(end - begin);
       context_.progress("write SVG", double(painted_) / image_.patch_count());
+      begin = end;
     }
     cells_.finish();
   }

@@ -1,0 +1,313 @@
+#include "svg_bleed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "patch_sides.h"
+
+namespace quadrille {
+namespace {
+
+using Eigen::Vector2d;
+using Geometry = BicubicHermite<Vector2d>;
+
+/// How far cells go on beyond a clip, in bleeds: all over the pixels that the clip halves.
+constexpr double kClippedBleed = 1.5;
+/// The least sine of the angle between a side and the next along which a corner moves, the cosines
+/// between two bleeds from which they are about one, and below which they make a spike; and the
+/// least ratio of their lengths with which they meet.
+constexpr double kLeastSlope = 0.5, kStraight = 0.95, kSpike = -0.3, kLeastRatio = 0.7;
+/// How often a bleed is halved.
+constexpr int kMostHalvings = 4;
+/// Holes with more cells than this are kept.
+constexpr std::size_t kMostHoleCells = 64;
+
+class Outliner {
+ public:
+  Outliner(const CellMesh& mesh, const CellGroup& group, double bleed)
+      : mesh_(mesh), layer_(mesh.layer()), group_(group), bleed_(bleed) {}
+
+  std::vector<SvgOutline> run() {
+    for (const int c : group_.cells) {
+      for (int s = mesh_.side_begin(c); s < mesh_.side_begin(c + 1); ++s) {
+        if (is_outer(s)) outer_.push_back(s);
+      }
+    }
+    std::sort(outer_.begin(), outer_.end());
+    seen_.assign(outer_.size(), 0);
+    std::vector<SvgOutline> outlines;
+    for (std::size_t i = 0; i < outer_.size(); ++i) {
+      if (seen_[i]) continue;
+      const std::vector<int> loop = trace(outer_[i]);
+      if (bleed_ > 0 && is_filled_hole(loop)) continue;
+      outlines.push_back(outline(loop));
+    }
+    return outlines;
+  }
+
+ private:
+  bool is_outer(int s) const {
+    const int twin = mesh_.side(s).twin;
+    return twin < 0 || !group_.holds(mesh_.side(twin).cell);
+  }
+
+  std::vector<int> trace(int first) {
+    std::vector<int> loop;
+    for (int s = first;;) {
+      const auto place = std::lower_bound(outer_.begin(), outer_.end(), s) - outer_.begin();
+      if (seen_[place]) break;
+      seen_[place] = 1;
+      loop.push_back(s);
+      s = mesh_.side(s).next;
+      while (!is_outer(s)) s = mesh_.side(mesh_.side(s).twin).next;
+    }
+    return loop;
+  }
+
+  /// True when only cells that are painted later lie within the loop.
+  bool is_filled_hole(const std::vector<int>& loop) const {
+    double area = 0;
+    std::vector<int> found;
+    const auto visit = [&](int cell) {
+      if (std::find(found.begin(), found.end(), cell) == found.end()) found.push_back(cell);
+    };
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vector2d a = start(loop[i]), b = start(loop[(i + 1) % loop.size()]);
+      area += a.x() * b.y() - a.y() * b.x();
+      const int twin = mesh_.side(loop[i]).twin;
+      if (twin < 0) return false;
+      visit(mesh_.side(twin).cell);
+    }
+    if (area >= 0) return false;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (i > kMostHoleCells || !group_.is_later(found[i])) return false;
+      for (int s = mesh_.side_begin(found[i]); s < mesh_.side_begin(found[i] + 1); ++s) {
+        const int twin = mesh_.side(s).twin;
+        if (twin < 0) return false;
+        if (!group_.holds(mesh_.side(twin).cell)) visit(mesh_.side(twin).cell);
+      }
+    }
+    return true;
+  }
+
+  CellMesh::Beyond beyond(int s) const {
+    const CellMesh::Side& side = mesh_.side(s);
+    if (side.twin < 0) return side.beyond;
+    if (group_.is_later(mesh_.side(side.twin).cell)) return CellMesh::Beyond::later;
+    return side.is_torn ? CellMesh::Beyond::nothing : CellMesh::Beyond::seam;
+  }
+  bool has_bleed(int s) const {
+    const CellMesh::Beyond what = beyond(s);
+    return bleed_ > 0 && (what == CellMesh::Beyond::later || what == CellMesh::Beyond::clip);
+  }
+
+  SvgOutline outline(const std::vector<int>& loop) const {
+    OutlineSimplifier simplifier(kSeamFlatness);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int s = loop[i];
+      join(simplifier, loop[(i + loop.size() - 1) % loop.size()], s);
+      if (beyond(s) == CellMesh::Beyond::nothing) {
+        simplifier.add_exact(mesh_.curve(s));
+        continue;
+      }
+      const bool bleeds = has_bleed(s);
+      const auto points = mesh_.points(s);
+      for (int j = 1; j < static_cast<int>(points.size()); ++j) {
+        simplifier.add(bleeds ? Vector2d(points[j] + step_beyond(s, mesh_.parameters(s, j)))
+                              : points[j]);
+      }
+    }
+    return simplifier.outline();
+  }
+
+  /// Adds the corner between two sides. A bleed that ends there ends on the line on which the side
+  /// without one goes on.
+  void join(OutlineSimplifier& to, int before, int after) const {
+    const Vector2d corner = start(after);
+    const bool ends = has_bleed(before), starts = has_bleed(after);
+    if (!ends && !starts) return add(to, corner, after);
+    const Bleed end = ends ? bleed_at(before, true) : Bleed{};
+    const Bleed begin = starts ? bleed_at(after, false) : Bleed{};
+    if (ends && starts) {
+      if (const auto both = meeting(end, begin, before, after)) return to.add(corner + *both);
+      to.add(corner + end.step);
+      to.add(corner);
+      to.add(corner + begin.step);
+    } else if (ends) {
+      to.add(corner + along(-direction_at_start(after), end));
+      add(to, corner, after);
+    } else {
+      add(to, corner, after);
+      to.add(corner + along(direction_at_end(before), begin));
+    }
+  }
+
+  /// The bleed of a side at one of its ends.
+  struct Bleed {
+    Vector2d step = {0, 0};
+    Vector2d normal = {0, 0};  ///< of the side, outward
+    double depth = 0;          ///< how far the step leads along the normal
+  };
+  Bleed bleed_at(int s, bool at_end) const {
+    const CellMesh::Side& side = mesh_.side(s);
+    Bleed bleed;
+    bleed.step = step_beyond(s, at_end ? side.to : side.from);
+    const Vector2d along = at_end ? direction_at_end(s) : direction_at_start(s);
+    bleed.normal = {along.y(), -along.x()};
+    bleed.depth = bleed.step.dot(bleed.normal);
+    if (bleed.depth < 0) bleed.normal = -bleed.normal, bleed.depth = -bleed.depth;
+    return bleed;
+  }
+
+  /// The start of an exact side is added with it.
+  void add(OutlineSimplifier& to, const Vector2d& corner, int after) const {
+    if (beyond(after) != CellMesh::Beyond::nothing) to.add(corner);
+  }
+
+  /// The step in the given direction that leads across a side as far as its bleed, or the bleed
+  /// where that direction leads along the side.
+  static Vector2d along(const Vector2d& direction, const Bleed& bleed) {
+    const double slope = direction.dot(bleed.normal);
+    return slope > kLeastSlope ? Vector2d(direction * (bleed.depth / slope)) : bleed.step;
+  }
+
+  /// Where two bleeds meet; nothing where they do not, or above what is painted earlier.
+  std::optional<Vector2d> meeting(const Bleed& end, const Bleed& begin, int before,
+                                  int after) const {
+    const Vector2d &n = end.normal, &m = begin.normal;
+    const double a = end.depth, b = begin.depth, cosine = n.dot(m);
+    if (cosine > kStraight) return 0.5 * (end.step + begin.step);
+    if (cosine < kSpike || std::min(a, b) < kLeastRatio * std::max(a, b)) return {};
+    const double turn = n.x() * m.y() - n.y() * m.x();  // positive where the group is convex
+    if (turn > 0 && !all_later_around(before, after)) return {};
+    const double divisor = 1 - cosine * cosine;
+    return (a - cosine * b) / divisor * n + (b - cosine * a) / divisor * m;
+  }
+
+  /// True when all other cells around the start of side `after` are painted later.
+  bool all_later_around(int before, int after) const {
+    const CellMesh::Side& side = mesh_.side(after);
+    const auto is_end = [](double t) { return t == 0 || t == 1; };
+    if (is_end(side.from.x()) && is_end(side.from.y())) return all_later_at_vertex(after);
+    int s = mesh_.side(before).twin;
+    while (s >= 0) {
+      s = mesh_.side(s).prev;
+      const int twin = mesh_.side(s).twin;
+      if (twin == after || twin < 0) break;
+      if (!group_.is_later(mesh_.side(twin).cell)) return false;
+      s = twin;
+    }
+    return true;
+  }
+
+  bool all_later_at_vertex(int after) const {
+    const CellMesh::Side& side = mesh_.side(after);
+    const int q = mesh_.quad(side.cell);
+    const int corner =
+        side.from.y() == 0 ? (side.from.x() == 0 ? 0 : 1) : (side.from.x() == 0 ? 3 : 2);
+    const QuadMesh& quads = layer_.mesh();
+    const auto fan = quads.fan(quads.origin(4 * q + corner));
+    return std::all_of(fan.begin(), fan.end(), [&](int h) {
+      const int cell = mesh_.cell_at(h);
+      if (cell >= 0) return group_.holds(cell) || group_.is_later(cell);
+      const int other = QuadMesh::quad_of(h);
+      return layer_.opacity(other) == PatchOpacity::transparent ||
+             layer_.is_painted_later(q, other);
+    });
+  }
+
+  Vector2d start(int s) const { return mesh_.points(s).front(); }
+  Vector2d direction_at_start(int s) const {
+    const PlaneCurve curve = mesh_.curve(s);
+    return direction(curve[0], curve[1], curve[3]);
+  }
+  Vector2d direction_at_end(int s) const {
+    const PlaneCurve curve = mesh_.curve(s);
+    return -direction(curve[3], curve[2], curve[0]);
+  }
+  static Vector2d direction(const Vector2d& from, const Vector2d& near, const Vector2d& far) {
+    const Vector2d to_near = near - from;
+    return (to_near.norm() > 1e-6 ? to_near : Vector2d(far - from)).normalized();
+  }
+
+  /// The bleed of a side at one of its points. Where cells are thin, others that are painted
+  /// earlier may lie beyond them: it is halved until it ends in a cell that is painted later.
+  Vector2d step_beyond(int s, const Vector2d& uv) const {
+    const CellMesh::Side& side = mesh_.side(s);
+    const Geometry& g = mesh_.geometry(side.cell);
+    const Vector2d point = g.at(uv.x(), uv.y());
+    const bool is_clip = beyond(s) == CellMesh::Beyond::clip;
+    double bleed = is_clip ? kClippedBleed * bleed_ : bleed_;
+    const int q = mesh_.quad(side.cell), twin = layer_.mesh().twin(4 * q + side.k);
+    if (side.on_border && twin < 0) return outward(g, side, uv, bleed);
+    Vector2d target = point;
+    for (int halving = 0; halving < kMostHalvings; ++halving, bleed *= 0.5) {
+      const auto [quad, at] = side.on_border ? across_border(side, uv, twin, bleed)
+                                             : std::pair(q, across_line(g, side, uv, bleed));
+      const int cell = mesh_.cell_with(quad, at);
+      const Geometry& its = cell >= 0 ? mesh_.geometry(cell) : neighbor(quad);
+      target = its.at(at.x(), at.y());
+      if (is_clip || cell < 0 || group_.holds(cell) || group_.is_later(cell)) break;
+    }
+    return target - point;
+  }
+
+  /// Parameters beyond a side within a patch.
+  static Vector2d across_line(const Geometry& g, const CellMesh::Side& side, const Vector2d& uv,
+                              double bleed) {
+    const bool across_u = side.k == 1 || side.k == 3;
+    const int axis = across_u ? 0 : 1;
+    const double step = parameter_step(g, uv, across_u, bleed);
+    Vector2d target = uv;
+    target[axis] = std::clamp(uv[axis] + (side.k == 1 || side.k == 2 ? step : -step), 0.0, 1.0);
+    return target;
+  }
+
+  /// The patch beyond a side that lies on the border of its own, and parameters there.
+  std::pair<int, Vector2d> across_border(const CellMesh::Side& side, const Vector2d& uv, int twin,
+                                         double bleed) const {
+    const double along = side.k == 1 || side.k == 3 ? uv.y() : uv.x();
+    const double place = side.k < 2 ? 1 - along : along;
+    const int quad = QuadMesh::quad_of(twin), k = QuadMesh::corner_of(twin);
+    const int cell = mesh_.cell_at(twin);
+    const Geometry& its = cell >= 0 ? mesh_.geometry(cell) : neighbor(quad);
+    const double depth = parameter_step(its, on_side(k, place), k == 1 || k == 3, bleed);
+    return {quad, on_side(k, place, depth)};
+  }
+
+  /// The same beyond the border of the mesh.
+  static Vector2d outward(const Geometry& g, const CellMesh::Side& side, const Vector2d& uv,
+                          double bleed) {
+    const bool along_u = side.k == 0 || side.k == 2;
+    Vector2d along = along_u ? g.derivative_u(uv.x(), uv.y()) : g.derivative_v(uv.x(), uv.y());
+    if (side.k >= 2) along = -along;
+    const Vector2d du = g.derivative_u(0.5, 0.5), dv = g.derivative_v(0.5, 0.5);
+    const double orientation = du.x() * dv.y() < du.y() * dv.x() ? -1 : 1;
+    return orientation * bleed * Vector2d(along.y(), -along.x()).normalized();
+  }
+
+  /// Geometry of a patch that has no cells in the mesh.
+  const Geometry& neighbor(int quad) const {
+    if (quad != neighbor_) neighbor_geometry_ = layer_.geometry(neighbor_ = quad);
+    return neighbor_geometry_;
+  }
+
+  const CellMesh& mesh_;
+  const SvgLayer& layer_;
+  const CellGroup& group_;
+  double bleed_;
+  std::vector<int> outer_;  ///< sides of the group, ascending
+  std::vector<char> seen_;
+  mutable int neighbor_ = -1;
+  mutable Geometry neighbor_geometry_;
+};
+
+}  // namespace
+
+std::vector<SvgOutline> group_outlines(const CellMesh& mesh, const CellGroup& group, double bleed) {
+  return Outliner(mesh, group, bleed).run();
+}
+
+}  // namespace quadrille
