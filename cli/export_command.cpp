@@ -27,7 +27,7 @@ int run_export(const ExportRequest& request) {
 
 Action declare_export(CLI::App& parser) {
   const auto request = std::make_shared<ExportRequest>();
-  declare_input(parser, request->input, "file of patches: .quad or .vtu");
+  declare_input(parser, request->input, "file of patches: .quad, .vtu or .vtm");
   declare_outputs(parser, request->outputs);
   declare_export_options(parser, request->files);
   declare_run_options(parser, request->run);

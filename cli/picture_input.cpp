@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "command.h"
 #include "output_files.h"
 #include "quadrille/error.h"
 #include "quadrille/image_file.h"
@@ -24,6 +25,13 @@ void note_source(VectorImage& image, const fs::path& source) {
 bool is_document(const fs::path& path) {
   const std::vector<std::string> endings = import_endings();
   return std::ranges::find(endings, ending_of(path)) != endings.end();
+}
+
+void check_mesh_options(const fs::path& path, const MeshOptions& mesh) {
+  if (!is_document(path) || mesh == MeshOptions{}) return;
+  throw UsageError("'" + path.string() +
+                   "' holds patches already; leave out --quads and other options of the mesh, "
+                   "which are for vectorizing a picture");
 }
 
 Raster read_picture(const fs::path& path, Observer& observer) {

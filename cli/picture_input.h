@@ -15,6 +15,9 @@ namespace quadrille::cli {
 /// True for files of patches, see import_endings(); all others are read as pictures.
 bool is_document(const std::filesystem::path& path);
 
+/// Throws UsageError when options of the mesh are given for a document, whose mesh is made already.
+void check_mesh_options(const std::filesystem::path& path, const MeshOptions& mesh);
+
 /// A picture's pixels. Throws Error{unsupported_format} for a document, whose patches would be
 /// drawn and fitted again.
 Raster read_picture(const std::filesystem::path& path, Observer& observer);

@@ -115,7 +115,7 @@ void export_image(const VectorImage& image, const std::filesystem::path& path,
 
 std::vector<std::string> import_endings() {
 #ifdef QUADRILLE_HAS_VTK
-  return {".quad", ".vtu"};
+  return {".quad", ".vtu", ".vtm"};
 #else
   return {".quad"};
 #endif
@@ -126,8 +126,16 @@ VectorImage import_image(const std::filesystem::path& path) {
   if (ending == ".quad") return load_document(path);
 #ifdef QUADRILLE_HAS_VTK
   if (ending == ".vtu") return read_vtu(path);
+  if (ending == ".vtm") return read_vtm(path);
 #endif
   refuse_ending(path, "read patches from", import_endings());
+}
+
+std::optional<Raster> import_source([[maybe_unused]] const std::filesystem::path& path) {
+#ifdef QUADRILLE_HAS_VTK
+  if (lower_case_ending(path) == ".vtm") return read_vtm_source(path);
+#endif
+  return std::nullopt;
 }
 
 void export_scene([[maybe_unused]] const Scene& scene, const std::filesystem::path& path,

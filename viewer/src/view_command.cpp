@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <functional>
 #include <memory>
 
@@ -14,6 +15,7 @@
 #include "output_files.h"
 #include "picture_input.h"
 #include "quadrille/error.h"
+#include "quadrille/export.h"
 #include "quadrille/raster_file.h"
 #include "view_options.h"
 #include "viewer_window.h"
@@ -27,6 +29,12 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// At once, also into a pipe, since the window may stay open for long.
+void tell(const std::string& line) {
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
 /// What the files give, and how a source would be vectorized.
 struct Opened {
   Subject subject;
@@ -38,6 +46,21 @@ std::shared_ptr<const Raster> read_source(const std::filesystem::path& path,
   return std::make_shared<const Raster>(cli::read_raster(path, observer));
 }
 
+/// The source of a file of patches: one that was named, or that the file keeps, or null.
+std::shared_ptr<const Raster> source_of(const ViewOptions& options, cli::Observer& observer) {
+  if (!options.source.empty()) return read_source(options.source, observer);
+  auto kept = observer.stage("read", [&] { return import_source(options.input); });
+  return kept ? std::make_shared<const Raster>(std::move(*kept)) : nullptr;
+}
+
+/// Nothing could heed these options.
+void check_sourceless(const ViewOptions& options) {
+  cli::check_mesh_options(options.input, options.mesh);
+  if (!options.compare) return;
+  throw cli::UsageError("--compare needs the picture that '" + options.input.string() +
+                        "' was made of; give it with --source PICTURE");
+}
+
 void check_source(const Subject& subject, const ViewOptions& options) {
   if (subject.image->width == subject.source->width &&
       subject.image->height == subject.source->height) {
@@ -46,8 +69,9 @@ void check_source(const Subject& subject, const ViewOptions& options) {
   throw Error(ErrorCode::invalid_argument,
               fmt::format("'{}' of {} x {} pixels is not the source of '{}' of {} x {}; give the "
                           "picture that it was made of",
-                          options.source.string(), subject.source->width, subject.source->height,
-                          options.input.string(), subject.image->width, subject.image->height));
+                          (options.source.empty() ? options.input : options.source).string(),
+                          subject.source->width, subject.source->height, options.input.string(),
+                          subject.image->width, subject.image->height));
 }
 
 Opened open(const ViewOptions& options, cli::Observer& observer) {
@@ -55,14 +79,17 @@ Opened open(const ViewOptions& options, cli::Observer& observer) {
   if (cli::is_document(options.input)) {
     opened.subject.image = std::make_shared<const VectorImage>(
         cli::read_vector_image(options.input, options.mesh, observer));
-    if (!options.source.empty()) opened.subject.source = read_source(options.source, observer);
+    opened.subject.source = source_of(options, observer);
   } else {
     if (!options.source.empty()) {
       throw cli::UsageError("--source goes with a file of patches; a picture is its own source");
     }
     opened.subject.source = read_source(options.input, observer);
   }
-  if (!opened.subject.source) return opened;
+  if (!opened.subject.source) {
+    check_sourceless(options);
+    return opened;
+  }
   cli::MeshOptions mesh = options.mesh;
   if (opened.subject.image) {
     check_source(opened.subject, options);
@@ -125,7 +152,7 @@ void print_rate(const char* name, int frames, ViewerWindow& window,
     change(window.session().view, i < frames / 2);
     window.draw();
   }
-  fmt::print("{}: {:.1f} frames a second\n", name, frames / seconds_since(start));
+  tell(fmt::format("{}: {:.1f} frames a second", name, frames / seconds_since(start)));
   window.session().view = before;
 }
 
@@ -147,7 +174,7 @@ int view(const ViewOptions& options) {
   cli::Observer observer(options.run.verbosity(), options.run.threads);
   Opened opened = open(options, observer);
   if (screenshot) complete(opened, layers, options, observer);
-  if (options.timings) fmt::print("read: {:.3f} s\n", seconds_since(start));
+  if (options.timings) tell(fmt::format("read: {:.3f} s", seconds_since(start)));
 
   ViewerWindow window(opened.subject, opened.vectorize, settings_for(options));
   set_up(window.session(), layers, options);
@@ -155,7 +182,7 @@ int view(const ViewOptions& options) {
   if (options.pick) window.pick_at(*options.pick);
   window.draw();
   if (options.timings) {
-    fmt::print("shown: {:.3f} s\n", seconds_since(start));
+    tell(fmt::format("shown: {:.3f} s", seconds_since(start)));
     print_rates(window);
   }
   if (screenshot) {
