@@ -15,7 +15,6 @@
 #include "output_files.h"
 #include "picture_input.h"
 #include "quadrille/error.h"
-#include "quadrille/export.h"
 #include "quadrille/raster_file.h"
 #include "view_options.h"
 #include "viewer_window.h"
@@ -41,18 +40,6 @@ struct Opened {
   VectorizeOptions vectorize;
 };
 
-std::shared_ptr<const Raster> read_source(const std::filesystem::path& path,
-                                          cli::Observer& observer) {
-  return std::make_shared<const Raster>(cli::read_raster(path, observer));
-}
-
-/// The source of a file of patches: one that was named, or that the file keeps, or null.
-std::shared_ptr<const Raster> source_of(const ViewOptions& options, cli::Observer& observer) {
-  if (!options.source.empty()) return read_source(options.source, observer);
-  auto kept = observer.stage("read", [&] { return import_source(options.input); });
-  return kept ? std::make_shared<const Raster>(std::move(*kept)) : nullptr;
-}
-
 /// Nothing could heed these options.
 void check_sourceless(const ViewOptions& options) {
   cli::check_mesh_options(options.input, options.mesh);
@@ -61,30 +48,19 @@ void check_sourceless(const ViewOptions& options) {
                         "' was made of; give it with --source PICTURE");
 }
 
-void check_source(const Subject& subject, const ViewOptions& options) {
-  if (subject.image->width == subject.source->width &&
-      subject.image->height == subject.source->height) {
-    return;
-  }
-  throw Error(ErrorCode::invalid_argument,
-              fmt::format("'{}' of {} x {} pixels is not the source of '{}' of {} x {}; give the "
-                          "picture that it was made of",
-                          (options.source.empty() ? options.input : options.source).string(),
-                          subject.source->width, subject.source->height, options.input.string(),
-                          subject.image->width, subject.image->height));
-}
-
 Opened open(const ViewOptions& options, cli::Observer& observer) {
   Opened opened;
   if (cli::is_document(options.input)) {
     opened.subject.image = std::make_shared<const VectorImage>(
         cli::read_vector_image(options.input, options.mesh, observer));
-    opened.subject.source = source_of(options, observer);
+    opened.subject.source =
+        cli::read_source(options.input, options.source, *opened.subject.image, observer);
   } else {
     if (!options.source.empty()) {
       throw cli::UsageError("--source goes with a file of patches; a picture is its own source");
     }
-    opened.subject.source = read_source(options.input, observer);
+    opened.subject.source =
+        std::make_shared<const Raster>(cli::read_raster(options.input, observer));
   }
   if (!opened.subject.source) {
     check_sourceless(options);
@@ -92,7 +68,6 @@ Opened open(const ViewOptions& options, cli::Observer& observer) {
   }
   cli::MeshOptions mesh = options.mesh;
   if (opened.subject.image) {
-    check_source(opened.subject, options);
     if (!mesh.quads) mesh.quads = std::max(opened.subject.image->patch_count(), 1);
   }
   opened.vectorize = choose_options(mesh, *opened.subject.source, observer).vectorize;
