@@ -12,12 +12,12 @@ namespace {
 constexpr std::array<Command, 6> kCommands = {{
     {"vectorize", "Turn a picture into patches and write them in any of the formats",
      declare_vectorize},
-    {"export", "Write patches from a .quad or .vtu file in other formats", declare_export},
+    {"export", "Write patches from a .quad, .vtu or .vtm file in other formats", declare_export},
     {"render", "Draw a document or a picture at any scale, whole or a region", declare_render},
     {"inspect", "Draw a stage of the computation over the faded picture, or write all to .vtm",
      declare_inspect},
     {"compare", "Print how far two pictures are apart: MAE, PSNR, SSIM", declare_compare},
-    {"info", "Print what a .quad or .vtu file holds", declare_info},
+    {"info", "Print what a .quad, .vtu or .vtm file holds", declare_info},
 }};
 
 bool is_command(const std::string& word) {

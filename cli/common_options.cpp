@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "quadrille/preset.h"
 
@@ -26,6 +27,14 @@ std::vector<std::string> preset_names() {
   std::vector<std::string> names = {"auto"};
   for (const Preset& preset : presets()) names.push_back(preset.name);
   return names;
+}
+
+/// NaN for what is not a number.
+double number_of(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool good = error == std::errc() && end == text.data() + text.size();
+  return good ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -69,7 +78,7 @@ void declare_quad_options(CLI::App& parser, MeshOptions& options) {
                   "how closely the cross field follows features, at the price of singularities: "
                   "about 0.01 to 0.5")
       ->check(positive_number())
-      ->check(CLI::Range(0.0, kMaxAlignment))
+      ->check(number_from(0, kMaxAlignment))
       ->capture_default_str();
   parser
       .add_option("--field", options.field,
@@ -121,8 +130,8 @@ void declare_outputs(CLI::App& parser, std::vector<std::filesystem::path>& outpu
       ->type_name("FILE");
 }
 
-void declare_output(CLI::App& parser, std::filesystem::path& output) {
-  parser.add_option("-o,--output", output, "picture to write; its ending chooses the format")
+void declare_output(CLI::App& parser, std::filesystem::path& output, const std::string& what) {
+  parser.add_option("-o,--output", output, what + " to write; its ending chooses the format")
       ->required()
       ->type_name("FILE");
 }
@@ -130,13 +139,23 @@ void declare_output(CLI::App& parser, std::filesystem::path& output) {
 CLI::Validator positive_number() {
   return CLI::Validator(
       [](const std::string& text) -> std::string {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool good = error == std::errc() && end == text.data() + text.size() &&
-                          std::isfinite(value) && value > 0;
-        return good ? "" : fmt::format("'{}' is not a number above 0", text);
+        const double value = number_of(text);
+        return std::isfinite(value) && value > 0
+                   ? ""
+                   : fmt::format("'{}' is not a number above 0", text);
       },
       "POSITIVE", "positive number");
+}
+
+CLI::Validator number_from(double low, double high) {
+  return CLI::Validator(
+      [low, high](const std::string& text) -> std::string {
+        const double value = number_of(text);
+        return value >= low && value <= high
+                   ? ""
+                   : fmt::format("'{}' is not a number from {} to {}", text, low, high);
+      },
+      fmt::format("NUMBER in [{} - {}]", low, high), "number in range");
 }
 
 }  // namespace quadrille::cli

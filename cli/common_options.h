@@ -34,6 +34,8 @@ struct MeshOptions {
   double alignment = CrossFieldOptions{}.alignment;
   std::string field = "smooth";
   std::filesystem::path density;  ///< empty for none
+
+  bool operator==(const MeshOptions&) const = default;
 };
 /// --preset, --quads, --lattice, --mesh, --alignment, --field and --density.
 void declare_quad_options(CLI::App& parser, MeshOptions& options);
@@ -44,10 +46,14 @@ void declare_input(CLI::App& parser, std::filesystem::path& input, const std::st
 
 /// `-o`, once per file.
 void declare_outputs(CLI::App& parser, std::vector<std::filesystem::path>& outputs);
-/// `-o`, exactly once.
-void declare_output(CLI::App& parser, std::filesystem::path& output);
+/// `-o`, exactly once, for `what`.
+void declare_output(CLI::App& parser, std::filesystem::path& output,
+                    const std::string& what = "picture");
 
 /// Accepts finite numbers above 0.
 CLI::Validator positive_number();
+
+/// Accepts numbers from low to high; other than CLI::Range, no NaN.
+CLI::Validator number_from(double low, double high);
 
 }  // namespace quadrille::cli

@@ -56,14 +56,14 @@ int run_compare(const CompareRequest& request) {
 
 Action declare_compare(CLI::App& parser) {
   const auto request = std::make_shared<CompareRequest>();
-  parser.add_option("A", request->a, "picture, or .quad document drawn at scale 1")
+  parser.add_option("A", request->a, "picture, or file of patches drawn at scale 1")
       ->required()
       ->type_name("FILE");
-  parser.add_option("B", request->b, "picture or document of the same size")
+  parser.add_option("B", request->b, "picture or file of patches of the same size")
       ->required()
       ->type_name("FILE");
   parser.add_option("--max-mae", request->max_mae, "fail when the MAE (0 to 255) is above this")
-      ->check(CLI::Range(0.0, 255.0))
+      ->check(number_from(0, 255))
       ->type_name("X");
   parser.add_flag("--json", request->json, "print one JSON object");
   return [request] { return run_compare(*request); };

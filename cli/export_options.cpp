@@ -33,7 +33,7 @@ void declare_svg_options(CLI::App& parser, SvgOptions& options) {
           },
           "most size of .svg and .svgz files in KB (1000 bytes) as written; searches the colour "
           "tolerance that fits")
-      ->check(CLI::Range(1.0, 1e9))
+      ->check(number_from(1, 1e9))
       ->type_name("KB");
 }
 
@@ -52,7 +52,7 @@ void declare_export_options(CLI::App& parser, ExportOptions& options) {
   parser
       .add_option("--dpi", options.pdf.dpi,
                   "pixels of the picture per inch of the page, for .pdf, .ps and .eps")
-      ->check(CLI::Range(1.0, 10000.0))
+      ->check(number_from(1, 10000))
       ->capture_default_str();
   declare_gltf_options(parser, options.gltf);
   parser

@@ -56,7 +56,7 @@ void declare_gltf_options(CLI::App& parser, GltfOptions& options) {
   parser
       .add_option("--gltf-relief", options.relief,
                   "lifts .glb and .gltf surfaces by their brightness: height of white in pixels")
-      ->check(CLI::Range(-1e6, 1e6))
+      ->check(number_from(-1e6, 1e6))
       ->type_name("S")
       ->capture_default_str();
   declare_choice<GltfCompression>(

@@ -71,11 +71,24 @@ Json json_of(const Contents& c) {
           {"bounding_box", box_of(c)}};
 }
 
+/// With the pieces of a .vtm, which lie in a folder beside it.
+std::uintmax_t stored_bytes(const std::filesystem::path& path) {
+  std::uintmax_t bytes = std::filesystem::file_size(path);
+  if (ending_of(path) != ".vtm") return bytes;
+  std::filesystem::path folder = path;
+  folder.replace_extension() += "_vtm";
+  std::error_code missing;  // another program may have named it otherwise
+  for (const auto& piece : std::filesystem::directory_iterator(folder, missing)) {
+    if (piece.is_regular_file()) bytes += piece.file_size();
+  }
+  return bytes;
+}
+
 /// The image of a file; what a file that is no .quad document does not tell of its storage is 0.
 StoredImage read_stored(const std::filesystem::path& path) {
   if (ending_of(path) == ".quad") return load_document_and_storage(path);
   StoredImage stored{import_image(path), {}};
-  stored.storage.file_bytes = std::filesystem::file_size(path);
+  stored.storage.file_bytes = stored_bytes(path);
   stored.storage.layers.resize(stored.image.layers.size());
   return stored;
 }
@@ -184,7 +197,7 @@ int run_info(const InfoRequest& request) {
 
 Action declare_info(CLI::App& parser) {
   const auto request = std::make_shared<InfoRequest>();
-  declare_input(parser, request->input, "file of patches: .quad or .vtu");
+  declare_input(parser, request->input, "file of patches: .quad, .vtu or .vtm");
   parser.add_flag("--json", request->json, "print one JSON object");
   return [request] { return run_info(*request); };
 }

@@ -91,7 +91,8 @@ Action declare_inspect(CLI::App& parser) {
     explanation += fmt::format("\n{} - {}", stage.name, stage.summary);
   }
   declare_input(parser, request->input, "picture");
-  declare_output(parser, request->output);
+  declare_output(parser, request->output,
+                 "drawing of a stage, or .vtm file of all stages and the patches,");
   parser.add_option("--stage", request->stage, explanation)->check(CLI::IsMember(names));
   parser
       .add_option("--scale", request->scale,

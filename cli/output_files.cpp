@@ -8,6 +8,7 @@
 #include <cctype>
 
 #include "quadrille/error.h"
+#include "quadrille/left_out_formats.h"
 #include "quadrille/picture_layers.h"
 #include "quadrille/render.h"
 
@@ -22,9 +23,7 @@ void check_output(const fs::path& output, const fs::path& input,
   if (std::ranges::find(endings, ending) == endings.end()) {
     throw Error(ErrorCode::unsupported_format,
                 fmt::format("cannot write '{}': {}; use one of {}", output.string(),
-                            ending.empty() ? "its name has no ending"
-                                           : "the ending '" + ending + "' is not known here",
-                            fmt::join(endings, " ")));
+                            why_unknown(ending), fmt::join(endings, " ")));
   }
   std::error_code ignored;
   const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");

@@ -1,8 +1,15 @@
 #include "picture_input.h"
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
+#include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "command.h"
 #include "output_files.h"
 #include "quadrille/error.h"
 #include "quadrille/image_file.h"
@@ -22,8 +29,15 @@ void note_source(VectorImage& image, const fs::path& source) {
 }  // namespace
 
 bool is_document(const fs::path& path) {
-  const std::vector<std::string> endings = import_endings();
-  return std::ranges::find(endings, ending_of(path)) != endings.end();
+  constexpr std::array<std::string_view, 3> kEndings = {".quad", ".vtu", ".vtm"};
+  return std::ranges::find(kEndings, ending_of(path)) != kEndings.end();
+}
+
+void check_mesh_options(const fs::path& path, const MeshOptions& mesh) {
+  if (!is_document(path) || mesh == MeshOptions{}) return;
+  throw UsageError("'" + path.string() +
+                   "' holds patches already; leave out --quads and other options of the mesh, "
+                   "which are for vectorizing a picture");
 }
 
 Raster read_picture(const fs::path& path, Observer& observer) {
@@ -49,6 +63,25 @@ VectorImage read_vector_image(const fs::path& path, const MeshOptions& mesh, Obs
   const Raster picture = read_raster(path, observer);
   const ChosenOptions chosen = choose_options(mesh, picture, observer);
   return vectorize_picture(picture, path, chosen.vectorize, observer).image;
+}
+
+std::shared_ptr<const Raster> read_source(const fs::path& document, const fs::path& source,
+                                          const VectorImage& image, Observer& observer) {
+  std::optional<Raster> picture;
+  if (!source.empty()) {
+    picture = read_raster(source, observer);
+  } else {
+    picture = observer.stage("read", [&] { return import_source(document); });
+  }
+  if (!picture) return nullptr;
+  if (image.width != picture->width || image.height != picture->height) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("'{}' of {} x {} pixels is not the source of '{}' of {} x {}; give the "
+                            "picture that it was made of",
+                            (source.empty() ? document : source).string(), picture->width,
+                            picture->height, document.string(), image.width, image.height));
+  }
+  return std::make_shared<const Raster>(std::move(*picture));
 }
 
 Vectorization vectorize_picture(const Raster& picture, const fs::path& source,

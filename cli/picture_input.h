@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "chosen_options.h"
 #include "common_options.h"
@@ -12,8 +13,12 @@
 
 namespace quadrille::cli {
 
-/// True for files of patches, see import_endings(); all others are read as pictures.
+/// True for files of patches (.quad, .vtu, .vtm), also of those that this build cannot read; all
+/// others are read as pictures.
 bool is_document(const std::filesystem::path& path);
+
+/// Throws UsageError when options of the mesh are given for a document, whose mesh is made already.
+void check_mesh_options(const std::filesystem::path& path, const MeshOptions& mesh);
 
 /// A picture's pixels. Throws Error{unsupported_format} for a document, whose patches would be
 /// drawn and fitted again.
@@ -25,6 +30,13 @@ Raster read_raster(const std::filesystem::path& path, Observer& observer);
 /// A document's content; a picture is vectorized with the options.
 VectorImage read_vector_image(const std::filesystem::path& path, const MeshOptions& mesh,
                               Observer& observer);
+
+/// The picture that the patches of a document were made of: the one named `source` unless that is
+/// empty, else the one that the document keeps, else null. Throws Error{invalid_argument} when its
+/// size is another than the image's.
+std::shared_ptr<const Raster> read_source(const std::filesystem::path& document,
+                                          const std::filesystem::path& source,
+                                          const VectorImage& image, Observer& observer);
 
 /// Vectorizes a picture and notes in the metadata what the documents should remember of it.
 Vectorization vectorize_picture(const Raster& picture, const std::filesystem::path& source,

@@ -51,15 +51,18 @@ CLI::Validator region_syntax() {
       "X,Y,W,H", "region");
 }
 
-void check_region(const PixelRegion& region, const std::array<int, 2>& size) {
+void check_region(const RenderRequest& request, const PixelRegion& region,
+                  const std::array<int, 2>& size) {
   if (region.x <= size[0] - region.width && region.y <= size[1] - region.height) return;
   throw Error(ErrorCode::invalid_argument,
-              fmt::format("the region {},{},{},{} is not inside the output of {} x {} pixels; "
-                          "choose one that is",
-                          region.x, region.y, region.width, region.height, size[0], size[1]));
+              fmt::format("cannot write '{}': the region {},{},{},{} is not inside the output of "
+                          "{} x {} pixels; choose one that is",
+                          request.output.string(), region.x, region.y, region.width, region.height,
+                          size[0], size[1]));
 }
 
 int run_render(const RenderRequest& request) {
+  check_mesh_options(request.input, request.mesh);
   check_outputs({request.output}, request.input, kRasterEndings);
   Observer observer(request.run.verbosity(), request.run.threads);
   const VectorImage image = read_vector_image(request.input, request.mesh, observer);
@@ -77,7 +80,7 @@ int run_render(const RenderRequest& request) {
     options.scale = request.scale;
     options.width = request.width;
     options.region = parse_region(request.region);
-    check_region(*options.region, output_size(image, options));
+    check_region(request, *options.region, output_size(image, options));
     save_raster(render(image, options, observer.context()), request.output, file);
   });
   tell_written(request.output, observer);
@@ -89,7 +92,7 @@ int run_render(const RenderRequest& request) {
 Action declare_render(CLI::App& parser) {
   const auto request = std::make_shared<RenderRequest>();
   declare_input(parser, request->input,
-                "file of patches (.quad or .vtu), or a picture to vectorize first");
+                "file of patches (.quad, .vtu or .vtm), or a picture to vectorize first");
   declare_output(parser, request->output);
   CLI::Option* scale =
       parser.add_option("--scale", request->scale, "output pixels per source pixel")

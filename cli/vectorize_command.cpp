@@ -116,7 +116,7 @@ Action declare_vectorize(CLI::App& parser) {
                   "compare) takes; --quads is then the most, by default one per 4 pixels up to "
                   "200000")
       ->check(positive_number())
-      ->check(CLI::Range(0.0, 255.0));
+      ->check(number_from(0, 255));
   declare_export_options(parser, request->files);
   parser.add_option("--report", request->report, "write what the run measured as JSON")
       ->type_name("FILE.json");

@@ -16,11 +16,13 @@ fs::path folder_of(fs::path file, const std::string& suffix) {
 CompanionFolder::CompanionFolder(const fs::path& temporary, const fs::path& target,
                                  const std::string& suffix)
     : from_(folder_of(temporary, suffix)), to_(folder_of(target, suffix)) {
-  if (fs::exists(to_) && !fs::exists(target)) {
+  const bool is_folder = fs::is_directory(to_), is_obstacle = fs::exists(to_) && !is_folder;
+  if (is_obstacle || (is_folder && !fs::exists(target))) {
     throw Error(ErrorCode::io_failure,
-                "cannot write '" + target.string() + "': the folder '" + to_.string() +
-                    "' is there already and belongs to no such file; move it or choose another "
-                    "name");
+                "cannot write '" + target.string() + "': '" + to_.string() + "' is " +
+                    (is_obstacle ? "no folder, and parts of it have to lie in one of that name"
+                                 : "there already and belongs to no such file") +
+                    "; move it or choose another name");
   }
 }
 

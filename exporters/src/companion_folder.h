@@ -10,8 +10,8 @@ namespace quadrille {
 /// place beside the target, over that of a former file.
 class CompanionFolder {
  public:
-  /// Throws Error{io_failure} when the target's folder is there but the target is not: then it
-  /// belongs to something else.
+  /// Throws Error{io_failure} when the target's folder is there but the target is not, since then
+  /// it belongs to something else, and when something else than a folder has its name.
   CompanionFolder(const std::filesystem::path& temporary, const std::filesystem::path& target,
                   const std::string& suffix);
   ~CompanionFolder();

@@ -1,9 +1,11 @@
 #include "quadrille/export.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "ending.h"
 #include "quadrille/error.h"
+#include "quadrille/left_out_formats.h"
 #include "quadrille/picture_layers.h"
 
 namespace quadrille {
@@ -85,18 +87,35 @@ const Format kFormats[] = {
 #endif
 };
 
+/// Endings of formats that a build may leave out, and what they need.
+constexpr struct {
+  const char *ending, *needs;
+} kOptional[] = {{".pdf", "PDF"},   {".ps", "PDF"},  {".eps", "PDF"}, {".glb", "glTF"},
+                 {".gltf", "glTF"}, {".vtu", "VTK"}, {".vtp", "VTK"}, {".vtm", "VTK"}};
+
 [[noreturn]] void refuse_ending(const std::filesystem::path& path, const std::string& purpose,
                                 const std::vector<std::string>& endings) {
   const std::string ending = lower_case_ending(path);
   std::string known;
   for (const std::string& each : endings) known += (known.empty() ? "" : ", ") + each;
-  throw Error(ErrorCode::unsupported_format,
-              "cannot " + purpose + " '" + path.string() + "': " +
-                  (ending.empty() ? "it has no file ending" : "unknown file ending " + ending) +
-                  "; use one of " + known);
+  throw Error(ErrorCode::unsupported_format, "cannot " + purpose + " '" + path.string() + "': " +
+                                                 why_unknown(ending) + "; use one of " + known);
 }
 
 }  // namespace
+
+std::string why_unknown(const std::string& ending) {
+  if (ending.empty()) return "its name has no ending";
+  const std::vector<std::string> known = export_endings();
+  if (std::ranges::find(known, ending) == known.end()) {
+    for (const auto& format : kOptional) {
+      if (ending != format.ending) continue;
+      return "this program was built without " + std::string(format.needs) + ", which '" + ending +
+             "' needs";
+    }
+  }
+  return "the ending '" + ending + "' is not known here";
+}
 
 std::vector<std::string> export_endings() {
   std::vector<std::string> endings;
@@ -115,7 +134,7 @@ void export_image(const VectorImage& image, const std::filesystem::path& path,
 
 std::vector<std::string> import_endings() {
 #ifdef QUADRILLE_HAS_VTK
-  return {".quad", ".vtu"};
+  return {".quad", ".vtu", ".vtm"};
 #else
   return {".quad"};
 #endif
@@ -126,8 +145,16 @@ VectorImage import_image(const std::filesystem::path& path) {
   if (ending == ".quad") return load_document(path);
 #ifdef QUADRILLE_HAS_VTK
   if (ending == ".vtu") return read_vtu(path);
+  if (ending == ".vtm") return read_vtm(path);
 #endif
   refuse_ending(path, "read patches from", import_endings());
+}
+
+std::optional<Raster> import_source([[maybe_unused]] const std::filesystem::path& path) {
+#ifdef QUADRILLE_HAS_VTK
+  if (lower_case_ending(path) == ".vtm") return read_vtm_source(path);
+#endif
+  return std::nullopt;
 }
 
 void export_scene([[maybe_unused]] const Scene& scene, const std::filesystem::path& path,

@@ -101,6 +101,17 @@ void put_binary(std::ostream& file, std::string text, std::span<const unsigned c
   for (std::size_t k = 0; k < padding; ++k) file.put('\0');
 }
 
+/// write_stream_atomically() would complain of a file that nobody named.
+void check_obstacles(std::span<const SideFile> files) {
+  for (const SideFile& beside : files.subspan(1)) {
+    if (!fs::exists(beside.path) || fs::is_regular_file(beside.path)) continue;
+    throw Error(ErrorCode::io_failure, "cannot write '" + files.front().path.string() + "': '" +
+                                           beside.path.string() +
+                                           "', which belongs to it, is no file; move it or choose "
+                                           "another name");
+  }
+}
+
 /// Renames the last file first and the first one last. When a rename fails, those done before it
 /// are taken back, unless they have replaced older ones.
 void write_together(std::span<const SideFile> files) {
@@ -158,6 +169,7 @@ void write_gltf_files(tinygltf::Model& model, GltfBuffers& buffers,
   if (!images.empty()) gltf["images"] = images;
   const std::string text = gltf.dump();
   files.front().bytes = {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
+  check_obstacles(files);
   write_together(files);
 }
 

@@ -95,11 +95,11 @@ const RasterFormat* find_format(const std::string& ending) {
 }
 
 void check_options(const RasterFormat& format, const RasterStream& stream,
-                   const RasterFileOptions& options) {
+                   const std::filesystem::path& path, const RasterFileOptions& options) {
   if (options.bits != 8 && (options.bits != 16 || !format.has_16_bits)) {
     throw Error(ErrorCode::invalid_argument,
-                std::string(format.name) + " files with " + std::to_string(options.bits) +
-                    " bits a channel cannot be written; use 8" +
+                "cannot write '" + path.string() + "': " + format.name + " files with " +
+                    std::to_string(options.bits) + " bits a channel are not supported; use 8" +
                     (format.has_16_bits ? " or 16" : ", or 16 with PNG or TIFF"));
   }
   if (options.quality < 1 || options.quality > 100) {
@@ -222,7 +222,7 @@ void write_stream(const RasterStream& stream, const std::filesystem::path& path,
                     "': raster files end in .png, .jpg, .jpeg, .webp, .tif, .tiff or .dzi; use one "
                     "of these");
   }
-  check_options(*format, stream, options);
+  check_options(*format, stream, path, options);
   start_vips();
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     Drawing drawing{stream,

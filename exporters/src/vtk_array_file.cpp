@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <memory>
+#include <sstream>
 
 #include "quadrille/error.h"
+#include "vtk_whole_file.h"
 
 namespace quadrille {
 namespace {
@@ -18,15 +18,12 @@ namespace {
 constexpr unsigned long long kMostGrowth = 1032;
 constexpr unsigned long long kLargestArray = 1ull << 32;  // bytes; ten million patches take less
 
-std::string read_whole(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad() || std::filesystem::is_directory(path)) {
-    throw Error(ErrorCode::io_failure, "cannot read '" + path.string() +
-                                           "': there is no such file, or it may not be read; check "
-                                           "the path");
-  }
-  return content;
+constexpr const char* name_of(VtkArrayFile::Kind kind) {
+  return kind == VtkArrayFile::Kind::image ? "ImageData" : "UnstructuredGrid";
+}
+
+constexpr const char* ending_of(VtkArrayFile::Kind kind) {
+  return kind == VtkArrayFile::Kind::image ? ".vti" : ".vtu";
 }
 
 }  // namespace
@@ -76,6 +73,7 @@ class VtkArrayFile::HeaderParser {
       header_type = attributes["header_type"];
     } else if (name == "Piece") {
       ++pieces_;
+      if (file_.kind_ == Kind::image) return set_extent(attributes["Extent"]);
       file_.point_count_ = number(attributes["NumberOfPoints"]);
       file_.cell_count_ = number(attributes["NumberOfCells"]);
     } else if (name == "DataArray" || name == "Array") {
@@ -106,6 +104,21 @@ class VtkArrayFile::HeaderParser {
     file_.arrays_[{part, attributes["Name"]}] = array;
   }
 
+  /// "0 W 0 H 0 0": a pixel is a cell.
+  void set_extent(const std::string& text) {
+    std::istringstream stream(text);
+    std::array<std::string, 6> bounds;
+    for (std::string& bound : bounds) stream >> bound;
+    if (bounds[0] != "0" || bounds[2] != "0" || bounds[4] != "0" || bounds[5] != "0") {
+      failure_ = "its extent is not that of a picture";
+      return;
+    }
+    constexpr unsigned long long kMostSide = 1ull << 30;
+    file_.pixels_ = {number(bounds[1]), number(bounds[3])};
+    if (std::ranges::max(file_.pixels_) > kMostSide) failure_ = "its extent is impossible";
+    file_.cell_count_ = file_.pixels_[0] * file_.pixels_[1];
+  }
+
   unsigned long long number(const std::string& text) {
     unsigned long long value = 0;
     const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -123,13 +136,13 @@ class VtkArrayFile::HeaderParser {
   int pieces_ = 0;
 };
 
-VtkArrayFile::VtkArrayFile(const std::filesystem::path& path)
-    : name_(path.string()), file_(read_whole(path)) {
+VtkArrayFile::VtkArrayFile(const std::filesystem::path& path, Kind kind)
+    : name_(path.string()), file_(read_whole(path)), kind_(kind) {
   constexpr std::size_t kStart = 4096;  // where a file tells what it is
   const std::string_view start = std::string_view(file_).substr(0, kStart);
-  if (start.find("<VTKFile") == start.npos || start.find("UnstructuredGrid") == start.npos) {
-    throw Error(ErrorCode::unsupported_format,
-                "'" + name_ + "' is no .vtu file; give one that Quadrille wrote");
+  if (start.find("<VTKFile") == start.npos || start.find(name_of(kind)) == start.npos) {
+    throw Error(ErrorCode::unsupported_format, "'" + name_ + "' is no " + ending_of(kind) +
+                                                   " file; give one that Quadrille wrote");
   }
   if (file_.rfind("</VTKFile>") == file_.npos) refuse("it is cut off");
   const std::size_t appended = file_.find("<AppendedData");
@@ -138,7 +151,7 @@ VtkArrayFile::VtkArrayFile(const std::filesystem::path& path)
   }
   HeaderParser parser(*this);
   parser.parse(std::string_view(file_).substr(0, appended));
-  if (parser.file_type != "UnstructuredGrid") refuse_form("it is no unstructured grid");
+  if (parser.file_type != name_of(kind)) refuse_form(std::string("it is no ") + name_of(kind));
   if (parser.byte_order != "LittleEndian") refuse_form("its bytes are in another order");
   if (!parser.compressor.empty() && parser.compressor != "vtkZLibDataCompressor") {
     refuse_form("it is not compressed by zlib");
@@ -161,7 +174,7 @@ void VtkArrayFile::refuse(const std::string& why) const {
 
 void VtkArrayFile::refuse_content(const std::string& holds) const {
   throw Error(ErrorCode::unsupported_format,
-              "'" + name_ + "' holds " + holds + "; give a .vtu file that it wrote");
+              "'" + name_ + "' holds " + holds + "; give a file that it wrote");
 }
 
 void VtkArrayFile::refuse_form(const std::string& why) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
@@ -11,20 +12,23 @@
 
 namespace quadrille {
 
-/// The arrays of an unstructured grid in VTK's XML format with raw appended data, plain or
-/// compressed by zlib. VTK's own reader believes what a file says of its sizes and crashes on
+/// The arrays of an unstructured grid or an image in VTK's XML format with raw appended data, plain
+/// or compressed by zlib. VTK's own reader believes what a file says of its sizes and crashes on
 /// damaged ones; here everything is checked, and an array takes at most 1032 times the
 /// file's size and 4 GiB.
 class VtkArrayFile {
  public:
   enum class Part { field, cell, point };
+  enum class Kind { unstructured_grid, image };
 
   /// Throws Error{unsupported_format} for a foreign file or one with data in another form, and
   /// Error{io_failure}, as all members do, for a missing or damaged one.
-  explicit VtkArrayFile(const std::filesystem::path& path);
+  explicit VtkArrayFile(const std::filesystem::path& path, Kind kind = Kind::unstructured_grid);
 
   std::size_t point_count() const { return point_count_; }
   std::size_t cell_count() const { return cell_count_; }
+  /// Width and height of an image whose pixels are its cells.
+  const std::array<std::size_t, 2>& pixels() const { return pixels_; }
   bool has(Part part, const std::string& name) const { return arrays_.contains({part, name}); }
 
   /// The tuples of an array of numbers; empty when there is no such array.
@@ -71,10 +75,12 @@ class VtkArrayFile {
   unsigned long long word(std::size_t at) const;
 
   std::string name_, file_;
+  Kind kind_;
   std::size_t data_begin_ = 0;  ///< of the appended data in the file
   std::size_t word_bytes_ = 4;
   bool compressed_ = false;
   std::size_t point_count_ = 0, cell_count_ = 0;
+  std::array<std::size_t, 2> pixels_ = {0, 0};
   std::map<std::pair<Part, std::string>, Array> arrays_;
 };
 

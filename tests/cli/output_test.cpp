@@ -62,6 +62,23 @@ class Output : public testing::Test {
   }
 };
 
+TEST_F(Output, ExportShowsTheErrorOfTheSource) {
+  if (std::ranges::count(export_endings(), ".vtm") == 0) GTEST_SKIP() << "without VTK";
+  const fs::path folder = fresh_folder("source");
+  const std::string scene = (folder / "a.vtm").string(), again = (folder / "b.vtm").string();
+  expect_silent_success(quadrille({"export", document(), "--source", picture(), "-o", scene}));
+  EXPECT_TRUE(fs::exists(folder / "a_vtm" / "picture_error.vti"));
+  expect_silent_success(quadrille({"export", scene, "-o", again}));
+  expect_same_files(folder / "a_vtm", folder / "b_vtm");
+
+  const std::string other = sample("formats/one_pixel.png");
+  EXPECT_EQ(quadrille({"export", document(), "--source", other, "-o", scene}).exit_code, 1);
+  EXPECT_EQ(
+      quadrille({"export", document(), "--source", picture(), "-o", (folder / "a.svg").string()})
+          .exit_code,
+      2);
+}
+
 TEST_F(Output, EveryFormatIsTheSameForAnyThreadCountAndFromTheDocument) {
   const fs::path first = fresh_folder("threads_1");
   expect_silent_success(

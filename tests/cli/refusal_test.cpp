@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "command_line.h"
+#include "quadrille/export.h"
 #include "support/programs.h"
 
 namespace quadrille::test {
@@ -125,6 +127,46 @@ TEST(Refusal, NotADocument) {
   expect_refused(quadrille({"info", (folder / "text.quad").string()}), "text.quad");
   expect_refused(quadrille({"info", (folder / "none.quad").string(), "--json"}), "none.quad");
   EXPECT_THAT(files_in(folder), ElementsAre("text.quad"));
+}
+
+TEST(Refusal, WhatCannotBeDrawnNamesTheFile) {
+  const fs::path folder = fresh_folder("drawing");
+  const std::string picture = sample("formats/one_pixel.png");
+  const std::string png = (folder / "a.png").string(), jpg = (folder / "a.jpg").string();
+  expect_refused(quadrille({"render", picture, "-o", png, "--region", "0,0,9,9"}), png);
+  expect_refused(quadrille({"render", picture, "-o", jpg, "--bits", "16"}), jpg);
+  EXPECT_THAT(files_in(folder), IsEmpty());
+}
+
+// What lies in the way of a file's companions is named, and stays.
+TEST(Refusal, ObstaclesBesideAFile) {
+  const fs::path folder = fresh_folder("obstacles");
+  const std::string picture = sample("formats/one_pixel.png");
+  const auto expect_obstacle = [&](const std::string& output, const std::string& obstacle) {
+    const auto before = files_in(folder);
+    if (std::ranges::count(export_endings(), fs::path(output).extension().string()) == 0) return;
+    const CommandResult result = quadrille({picture, "-o", (folder / output).string()});
+    expect_refused(result, output);
+    EXPECT_THAT(result.err, HasSubstr("'" + (folder / obstacle).string() + "'"));
+    EXPECT_EQ(files_in(folder), before);
+  };
+  fs::create_directory(folder / "a.bin");
+  expect_obstacle("a.gltf", "a.bin");
+  std::ofstream(folder / "b_vtm") << "mine";
+  expect_obstacle("b.vtm", "b_vtm");
+  std::ofstream(folder / "b.vtm") << "mine";
+  expect_obstacle("b.vtm", "b_vtm");
+  fs::create_directory(folder / "c_files");
+  expect_obstacle("c.dzi", "c_files");
+}
+
+TEST(Refusal, AFolderIsToldFromAMissingFile) {
+  if (std::ranges::count(import_endings(), ".vtu") == 0) GTEST_SKIP() << "without VTK";
+  const fs::path folder = fresh_folder("kinds");
+  fs::create_directory(folder / "a.vtu");
+  expect_refused(quadrille({"info", (folder / "a.vtu").string()}), "it is a folder");
+  expect_refused(quadrille({"info", (folder / "b.vtu").string()}), "no such file");
+  expect_refused(quadrille({"info", (folder / "b.vtm").string()}), "no such file");
 }
 
 TEST(Refusal, TooLargeAScaleIsRefusedBeforeTheWork) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "command_line.h"
+#include "support/programs.h"
 
 namespace quadrille::test {
 namespace {
@@ -34,6 +35,21 @@ TEST(Usage, VersionIsOneLine) {
   const CommandResult version = quadrille({"--version"});
   EXPECT_EQ(version.exit_code, 0);
   EXPECT_THAT(version.out, testing::MatchesRegex("quadrille [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(Usage, OptionsOfTheMeshAreForPictures) {
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {"--quads", "100"}, {"--tears", "off"}, {"--lattice"}, {"--alignment", "0.3"}}) {
+    const CommandResult result =
+        quadrille(join({"render", "a.quad", "-o", (scratch_dir() / "a.png").string()}, options));
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(is_one_complaint(result.err)) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("a.quad"));
+  }
+}
+
+TEST(Usage, InspectTellsOfItsSceneFile) {
+  EXPECT_THAT(quadrille({"help", "inspect"}).out, HasSubstr(".vtm file of all stages"));
 }
 
 class WrongUsage : public testing::TestWithParam<std::vector<std::string>> {};
@@ -75,6 +91,11 @@ INSTANTIATE_TEST_SUITE_P(
                                  "--svg-size-limit", "100"},
         std::vector<std::string>{"a.png", "-o", "b.pdf", "--dpi", "0"},
         std::vector<std::string>{"a.png", "-o", "b.pdf", "--dpi", "1e12"},
+        std::vector<std::string>{"a.png", "-o", "b.pdf", "--dpi", "nan"},
+        std::vector<std::string>{"a.png", "-o", "b.glb", "--gltf-relief", "nan"},
+        std::vector<std::string>{"a.png", "-o", "b.svgz", "--svg-size-limit", "nan"},
+        std::vector<std::string>{"a.png", "-o", "b.quad", "--max-error", "nan"},
+        std::vector<std::string>{"compare", "a.png", "b.png", "--max-mae", "nan"},
         std::vector<std::string>{"a.png", "-o", "b.png", "--threads", "-1"},
         std::vector<std::string>{"a.png", "-o", "b.png", "-v", "-q"},
         std::vector<std::string>{"a.png", "-o", "b.png", "--unknown"},

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -122,6 +123,73 @@ TEST(VtkScene, HoldsThePatchesAsReadVtuTakesThem) {
   export_image(image, folder / "a.vtm");
   const VectorImage read = read_vtu(folder / "a_vtm" / "picture_patches.vtu");
   EXPECT_TRUE(to_document(read) == to_document(image));
+}
+
+TEST(VtkScene, IsReadBack) {
+  const fs::path folder = fresh_folder("read");
+  for (const bool alpha : {false, true}) {
+    Raster picture(40, 30, alpha ? 4 : 3);
+    for (std::size_t i = 0; i < picture.data.size(); ++i) {
+      picture.data[i] = static_cast<float>(i * 37 % 256) / 255;
+    }
+    const auto image = std::make_shared<const VectorImage>(random_picture());
+    write_vtm({40, 30, {picture_group(image, &picture)}}, folder / "a.vtm");
+    DocumentOptions lossless;
+    lossless.encoding = DocumentEncoding::lossless;
+    EXPECT_TRUE(to_document(import_image(folder / "a.vtm"), lossless) ==
+                to_document(*image, lossless));
+    const std::optional<Raster> source = import_source(folder / "a.vtm");
+    ASSERT_TRUE(source);
+    EXPECT_EQ(*source, picture);
+  }
+  export_image(random_picture(), folder / "b.vtm");
+  EXPECT_EQ(import_source(folder / "b.vtm"), std::nullopt);
+  EXPECT_EQ(import_source(folder / "b.quad"), std::nullopt);
+}
+
+ErrorCode error_of_reading(const fs::path& path) {
+  try {
+    read_vtm(path);
+    read_vtm_source(path);
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(path.stem().string()));
+    return error.code();
+  }
+  ADD_FAILURE() << path << " was read";
+  return {};
+}
+
+TEST(VtkScene, RefusesToReadWhatIsNotItsOwn) {
+  const fs::path folder = fresh_folder("foreign_index");
+  const Raster picture(40, 30, 3);
+  write_vtm(
+      {40, 30, {picture_group(std::make_shared<const VectorImage>(random_picture()), &picture)}},
+      folder / "a.vtm");
+  EXPECT_EQ(error_of_reading(folder / "none.vtm"), ErrorCode::io_failure);
+  const auto expect_refused = [&](const std::string& index, ErrorCode code) {
+    std::ofstream(folder / "b.vtm") << index;
+    EXPECT_EQ(error_of_reading(folder / "b.vtm"), code) << index;
+  };
+  const std::string head = "<VTKFile type=\"vtkMultiBlockDataSet\"><vtkMultiBlockDataSet>";
+  expect_refused("", ErrorCode::unsupported_format);
+  expect_refused("<VTKFile type=\"PolyData\"/>", ErrorCode::unsupported_format);
+  expect_refused(head + "</vtkMultiBlockDataSet></VTKFile>", ErrorCode::unsupported_format);
+  expect_refused(head, ErrorCode::io_failure);
+
+  const fs::path pixels = folder / "a_vtm" / "picture_picture.vti";
+  std::ifstream file(pixels, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  for (const char* extent : {"0 41 0 30 0 0", "0 -1 0 30 0 0", "1 40 0 30 0 0", "0 40 0 30", "",
+                             "0 4000000000 0 4000000000 0 0", "0 0 0 0 0 0"}) {
+    SCOPED_TRACE(extent);
+    std::string other = bytes;
+    const auto at = other.find("<Piece Extent=\"") + 15;
+    other.replace(at, other.find('"', at) - at, extent);
+    std::ofstream(pixels, std::ios::binary) << other;
+    EXPECT_THROW(read_vtm_source(folder / "a.vtm"), Error);
+  }
+  fs::remove(pixels);
+  EXPECT_EQ(error_of_reading(folder / "a.vtm"), ErrorCode::io_failure);
 }
 
 TEST(VtkScene, SurfaceFacesTheViewer) {

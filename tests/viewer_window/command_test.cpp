@@ -5,7 +5,9 @@
 #include <iterator>
 
 #include "quadrille/document.h"
+#include "quadrille/export.h"
 #include "quadrille/image_file.h"
+#include "quadrille/picture_layers.h"
 #include "quadrille/raster_file.h"
 #include "support/programs.h"
 #include "window_driver.h"
@@ -67,6 +69,26 @@ TEST(ViewCommand, DrawsTheSceneIntoAFile) {
   expect_same(expected_picture(files.subject, there.frame()), load_image(files.out), 1, "command");
 }
 
+TEST(ViewCommand, OpensASceneFileWithTheSourceThatItKeeps) {
+  const Files files;
+  const std::string scene = (test::scratch_dir() / "small.vtm").string();
+  const Raster source = load_image(files.source);
+  write_vtm({64, 48, {picture_group(files.subject.image, &source)}}, scene);
+  const std::vector<std::string> options = {
+      "--screenshot", files.out,  "--compare",
+      "0.4",          "--layers", "picture,error:0.3,patches,cross-field"};
+  std::string first;
+  for (std::vector<std::string> input :
+       {std::vector{scene}, std::vector{files.document, std::string("--source"), files.source}}) {
+    input.insert(input.end(), options.begin(), options.end());
+    const Result result = view(input);
+    ASSERT_EQ(result.exit_code, 0) << result.text;
+    const std::string bytes = bytes_of(files.out);
+    EXPECT_EQ(bytes, first.empty() ? bytes : first);
+    first = bytes;
+  }
+}
+
 TEST(ViewCommand, GivesTheSameBytesForAnyThreadCount) {
   const Files files;
   std::string first;
@@ -101,6 +123,9 @@ TEST(ViewCommand, RefusesAWrongCommandLine) {
                                              {files.document, "--center", "1;2"},
                                              {files.document, "--zoom", "0"},
                                              {files.document, "--compare", "2"},
+                                             {files.document, "--compare", "nan"},
+                                             {files.document, "--compare", "0.5"},
+                                             {files.document, "--quads", "30"},
                                              {files.document, "--panels"},
                                              {files.document, "--layers", "pictures"},
                                              {files.source, "--source", files.source},

@@ -6,37 +6,31 @@
 namespace quadrille::viewer {
 namespace {
 
-constexpr int kFontSize = 14, kGap = 10;  // window pixels
-
-enum class Anchor { top, middle, bottom };
-
-vtkSmartPointer<vtkTextActor> text_actor(Anchor anchor) {
+vtkSmartPointer<vtkTextActor> text_actor() {
   auto actor = vtkSmartPointer<vtkTextActor>::New();
   vtkTextProperty* style = actor->GetTextProperty();
   style->SetFontFamilyToCourier();
-  style->SetFontSize(kFontSize);
   style->SetBold(true);
   style->SetColor(1, 1, 1);
   style->SetBackgroundColor(0, 0, 0);
   style->SetBackgroundOpacity(0.65);
-  switch (anchor) {
-    case Anchor::top:
-      style->SetVerticalJustificationToTop();
-      break;
-    case Anchor::middle:
-      style->SetVerticalJustificationToCentered();
-      break;
-    case Anchor::bottom:
-      style->SetVerticalJustificationToBottom();
-      break;
-  }
   return actor;
 }
 
-void set(vtkTextActor* actor, const std::string& text, const Eigen::Array2d& place) {
-  actor->SetVisibility(!text.empty());
+/// Sets the text and returns its size in window pixels, 0 without any.
+Eigen::Array2d set(vtkTextActor* actor, const std::string& text, int font_size,
+                   vtkRenderer* renderer) {
+  if (text.empty()) return {0, 0};
+  actor->GetTextProperty()->SetFontSize(font_size);
   actor->SetInput(text.c_str());
-  actor->SetPosition(place.x(), place.y());
+  Eigen::Array2d size;
+  actor->GetSize(renderer, size.data());
+  return size;
+}
+
+void place(vtkTextActor* actor, const Eigen::AlignedBox2d& box) {
+  actor->SetVisibility(!box.isEmpty());
+  if (!box.isEmpty()) actor->SetPosition(box.min().x(), box.min().y());
 }
 
 }  // namespace
@@ -61,23 +55,25 @@ std::string view_line(const Session& session) {
 }
 
 Panels::Panels(vtkRenderer* renderer)
-    : layers_(text_actor(Anchor::top)),
-      numbers_(text_actor(Anchor::top)),
-      status_(text_actor(Anchor::bottom)),
-      help_(text_actor(Anchor::middle)) {
-  numbers_->GetTextProperty()->SetJustificationToRight();
-  help_->GetTextProperty()->SetJustificationToCentered();
-  for (vtkTextActor* actor : {layers_.Get(), numbers_.Get(), status_.Get(), help_.Get()}) {
+    : renderer_(renderer), actors_{text_actor(), text_actor(), text_actor(), text_actor()} {
+  for (const auto& actor : {actors_.layers, actors_.numbers, actors_.status, actors_.help}) {
     renderer->AddViewProp(actor);
   }
 }
 
-void Panels::update(const Texts& texts, const Eigen::Array2i& window) {
+void Panels::update(const Texts& texts, const Eigen::Array2i& window,
+                    const Eigen::AlignedBox2d& sliders) {
   const Eigen::Array2d size = window.cast<double>();
-  set(layers_, texts.layers, {kGap, size.y() - kGap});
-  set(numbers_, texts.numbers, {size.x() - kGap, size.y() - kGap});
-  set(status_, texts.status, {kGap, kGap});
-  set(help_, texts.help, size / 2);
+  const int font = panel_font_size(size);
+  const ForEachPanel<Eigen::Array2d> sizes = {set(actors_.layers, texts.layers, font, renderer_),
+                                              set(actors_.numbers, texts.numbers, font, renderer_),
+                                              set(actors_.status, texts.status, font, renderer_),
+                                              set(actors_.help, texts.help, font, renderer_)};
+  const ForEachPanel<Eigen::AlignedBox2d> boxes = lay_out_panels(sizes, size, sliders);
+  place(actors_.layers, boxes.layers);
+  place(actors_.numbers, boxes.numbers);
+  place(actors_.status, boxes.status);
+  place(actors_.help, boxes.help);
 }
 
 }  // namespace quadrille::viewer

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "panel_layout.h"
 #include "session.h"
 #include "subject.h"
 
@@ -22,13 +23,14 @@ class Panels {
  public:
   explicit Panels(vtkRenderer* renderer);
 
-  struct Texts {
-    std::string layers, numbers, status, help;  ///< empty ones are not shown
-  };
-  void update(const Texts& texts, const Eigen::Array2i& window);
+  using Texts = ForEachPanel<std::string>;
+  /// Shows the texts that are not empty, around the sliders' box (window pixels, y up; may be
+  /// empty); see lay_out_panels().
+  void update(const Texts& texts, const Eigen::Array2i& window, const Eigen::AlignedBox2d& sliders);
 
  private:
-  vtkSmartPointer<vtkTextActor> layers_, numbers_, status_, help_;
+  vtkRenderer* renderer_;
+  ForEachPanel<vtkSmartPointer<vtkTextActor>> actors_;
 };
 
 }  // namespace quadrille::viewer

@@ -73,8 +73,16 @@ void SceneActors::set_subject(SubjectLayers* layers) {
 }
 
 void SceneActors::update(const Session& session) {
+  wanted_.clear();
+  if (layers_) collect(session);
+  if (wanted_ == shown_) return;
+  // Only then, because this frees what the graphics card holds of them.
   renderer_->RemoveAllViewProps();
-  if (!layers_) return;
+  for (const auto& prop : wanted_) renderer_->AddViewProp(prop);
+  shown_ = wanted_;
+}
+
+void SceneActors::collect(const Session& session) {
   const Frame frame = session.view.frame();
   aim_camera(frame);
   add_paper(session, frame);
@@ -101,7 +109,7 @@ void SceneActors::add_paper(const Session& session, const Frame& frame) {
                       session.layers.shown(LayerId::picture) &&
                       session.layers.opacity(LayerId::picture) == 1 && !session.comparing;
   if (hidden || !paper_.place(frame, draw_paper(!opaque), 0, frame.window.x())) return;
-  renderer_->AddViewProp(paper_.actor());
+  wanted_.emplace_back(paper_.actor());
 }
 
 void SceneActors::add_layer(LayerId id, const Session& session, const Frame& frame) {
@@ -121,7 +129,7 @@ void SceneActors::add_pixels(LayerId id, const SceneLayer& layer, const Session&
   PixelActor& pixels = pixels_[static_cast<int>(id)];
   if (!pixels.place(frame, drawer(layer, frame), first, last)) return;
   pixels.set_opacity(session.layers.opacity(id));
-  renderer_->AddViewProp(pixels.actor());
+  wanted_.emplace_back(pixels.actor());
 }
 
 RegionCache::Draw SceneActors::drawer(const SceneLayer& layer, const Frame& frame) {
@@ -157,7 +165,7 @@ void SceneActors::add_shapes(std::optional<ShapeActors>& made,
   for (const auto& actor : made->actors) {
     actor->SetPosition(moved().x(), -moved().y(), 0);
     actor->GetProperty()->SetOpacity(opacity);
-    renderer_->AddViewProp(actor);
+    wanted_.emplace_back(actor);
   }
 }
 
@@ -177,7 +185,7 @@ void SceneActors::add_divider(const Session& session, const Frame& frame) {
     SceneStyle style;
     style.ink = ink;
     style.width = width;
-    renderer_->AddViewProp(
+    wanted_.emplace_back(
         make_shape_actor(vertical_line(x, frame.window.y()), style, window_pixels, 0));
   }
 }

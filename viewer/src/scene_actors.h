@@ -35,6 +35,8 @@ class SceneActors {
     Frame frame;  ///< they were made for
   };
 
+  /// The actors of a session in drawing order.
+  void collect(const Session& session);
   void aim_camera(const Frame& frame);
   void add_paper(const Session& session, const Frame& frame);
   void add_layer(LayerId id, const Session& session, const Frame& frame);
@@ -49,6 +51,7 @@ class SceneActors {
   RunContext context_;
   SubjectLayers* layers_ = nullptr;
   std::optional<Renderer> picture_;
+  std::vector<vtkSmartPointer<vtkProp>> wanted_, shown_;
   PixelActor paper_;
   std::array<PixelActor, kLayerCount> pixels_;
   std::array<std::optional<ShapeActors>, kLayerCount> shapes_;

@@ -1,6 +1,10 @@
 #include "sliders.h"
 
 #include <vtkCommand.h>
+#include <vtkCoordinate.h>
+#include <vtkNew.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyDataMapper2D.h>
 #include <vtkProperty2D.h>
 #include <vtkSliderRepresentation2D.h>
 #include <vtkTextProperty.h>
@@ -72,6 +76,23 @@ void LogSlider::show(bool shown) {
 void LogSlider::update_title() {
   if (!title_) return;
   widget_->GetSliderRepresentation()->SetTitleText(title_(value()).c_str());
+}
+
+vtkSmartPointer<vtkActor2D> make_slider_ground(const Eigen::AlignedBox2d& shares) {
+  vtkNew<vtkPlaneSource> rectangle;
+  rectangle->SetOrigin(shares.min().x(), shares.min().y(), 0);
+  rectangle->SetPoint1(shares.max().x(), shares.min().y(), 0);
+  rectangle->SetPoint2(shares.min().x(), shares.max().y(), 0);
+  vtkNew<vtkCoordinate> coordinate;
+  coordinate->SetCoordinateSystemToNormalizedViewport();
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputConnection(rectangle->GetOutputPort());
+  mapper->SetTransformCoordinate(coordinate);
+  auto ground = vtkSmartPointer<vtkActor2D>::New();
+  ground->SetMapper(mapper);
+  ground->GetProperty()->SetColor(0, 0, 0);
+  ground->GetProperty()->SetOpacity(0.65);
+  return ground;
 }
 
 }  // namespace quadrille::viewer

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <vtkActor2D.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 #include <vtkSliderWidget.h>
 #include <vtkSmartPointer.h>
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <string>
 
@@ -43,5 +45,9 @@ class LogSlider {
   std::function<void(double)> act_;
   vtkSmartPointer<vtkSliderWidget> widget_;
 };
+
+/// A dark ground under sliders, on which they are seen over any picture: a box in shares of the
+/// window, from its bottom left corner.
+vtkSmartPointer<vtkActor2D> make_slider_ground(const Eigen::AlignedBox2d& shares);
 
 }  // namespace quadrille::viewer

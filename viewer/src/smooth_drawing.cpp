@@ -1,13 +1,16 @@
 #include "smooth_drawing.h"
 
+#include <vtkDataObject.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkShaderProperty.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace quadrille::viewer {
 namespace {
@@ -15,6 +18,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kFade = 0.5;  // pixels on either side of an edge over which it fades
+constexpr char kAside[] = "aside";
 
 Vector2d normal_of(const Vector2d& from, const Vector2d& to) {
   const Vector2d along = (to - from).stableNormalized();
@@ -31,40 +35,60 @@ Vector2d mitre(std::span<const Vector2d> points, std::size_t i) {
   return (before + after) / std::max(1 + before.dot(after), 0.5);
 }
 
+/// The opacity falls from 1 to 0 over the last pixel before the edge. That the fragment shader does
+/// it saves the triangles whose corners would: most of the time is theirs where a processor draws.
+void fade_edges(vtkShaderProperty* shaders) {
+  const std::string name = kAside;
+  const auto after = [](const std::string& mark, const std::string& code) {
+    return mark + "\n" + code + "\n";
+  };
+  const std::string declarations = "//VTK::PositionVC::Dec", positions = "//VTK::PositionVC::Impl",
+                    inputs = "//VTK::Color::Dec", output = "//VTK::Light::Impl";
+  shaders->AddVertexShaderReplacement(
+      declarations, true,
+      after(declarations, "in vec2 " + name + ";\nout vec2 " + name + "Fragment;"), false);
+  shaders->AddVertexShaderReplacement(positions, true,
+                                      after(positions, name + "Fragment = " + name + ";"), false);
+  shaders->AddFragmentShaderReplacement(inputs, true,
+                                        after(inputs, "in vec2 " + name + "Fragment;"), false);
+  shaders->AddFragmentShaderReplacement(
+      output, true,
+      after(output, "gl_FragData[0].a *= clamp(" + name + "Fragment.y - abs(" + name +
+                        "Fragment.x), 0.0, 1.0);"),
+      false);
+}
+
 }  // namespace
 
-SmoothDrawing::SmoothDrawing(double height) : height_(height) { colors_->SetNumberOfComponents(4); }
+SmoothDrawing::SmoothDrawing(double height) : height_(height) {
+  colors_->SetNumberOfComponents(4);
+  aside_->SetNumberOfComponents(2);
+  aside_->SetName(kAside);
+}
 
 void SmoothDrawing::add_line(std::span<const Vector2d> points, double width, const Ink& ink) {
-  const double solid = std::max(width / 2 - kFade, 0.0),
-               outside = std::max(width / 2, kFade) + kFade;
-  const std::array<double, 4> all = {-outside, -solid, solid, outside};
-  const std::array<double, 3> thin = {-outside, 0, outside};
-  const std::span<const double> offsets = solid > 0 ? std::span<const double>(all) : thin;
-  const auto rows = static_cast<vtkIdType>(offsets.size());
+  const double outside = std::max(width / 2, kFade) + kFade;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector2d aside = mitre(points, i);
-    for (const double offset : offsets) {
-      const vtkIdType p = add_point(points[i] + offset * aside, ink, std::abs(offset) < outside);
-      if (i > 0 && offset > offsets.front()) add_quad(p - rows - 1, p - rows, p, p - 1);
-    }
+    const Vector2d aside = outside * mitre(points, i);
+    const vtkIdType left = add_point(points[i] - aside, ink, -outside, outside),
+                    right = add_point(points[i] + aside, ink, outside, outside);
+    if (i > 0) add_quad(left - 2, right - 2, right, left);
   }
 }
 
 void SmoothDrawing::add_disc(const Vector2d& center, double radius, const Ink& ink) {
   constexpr int kCorners = 20;
-  const double solid = std::max(radius - kFade, 0.0);
-  std::array<vtkIdType, kCorners> inner, outer;
+  const double outside = std::max(radius, kFade) + kFade;
+  const vtkIdType middle = add_point(center, ink, 0, outside);
+  std::array<vtkIdType, kCorners> rim;
   for (int k = 0; k < kCorners; ++k) {
     const double angle = 2 * std::numbers::pi * k / kCorners;
-    const Vector2d direction(std::cos(angle), std::sin(angle));
-    inner[k] = add_point(center + solid * direction, ink, true);
-    outer[k] = add_point(center + (radius + kFade) * direction, ink, false);
+    rim[k] = add_point(center + outside * Vector2d(std::cos(angle), std::sin(angle)), ink, outside,
+                       outside);
   }
-  polygons_->InsertNextCell(kCorners, inner.data());
   for (int k = 0; k < kCorners; ++k) {
-    const int next = (k + 1) % kCorners;
-    add_quad(inner[k], inner[next], outer[next], outer[k]);
+    const vtkIdType triangle[3] = {middle, rim[k], rim[(k + 1) % kCorners]};
+    polygons_->InsertNextCell(3, triangle);
   }
 }
 
@@ -73,19 +97,25 @@ vtkSmartPointer<vtkActor> SmoothDrawing::finish() {
   data->SetPoints(points_);
   data->SetPolys(polygons_);
   data->GetPointData()->SetScalars(colors_);
+  data->GetPointData()->AddArray(aside_);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
+  mapper->MapDataArrayToVertexAttribute(kAside, kAside, vtkDataObject::FIELD_ASSOCIATION_POINTS,
+                                        -1);
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   actor->GetProperty()->LightingOff();
   // VTK blends opaque actors, too, one over the other, but translucent ones in no order.
   actor->ForceOpaqueOn();
+  fade_edges(actor->GetShaderProperty());
   return actor;
 }
 
-vtkIdType SmoothDrawing::add_point(const Vector2d& p, const Ink& ink, bool solid) {
+vtkIdType SmoothDrawing::add_point(const Vector2d& p, const Ink& ink, double aside,
+                                   double outside) {
   for (const int c : ink) colors_->InsertNextValue(static_cast<unsigned char>(c));
-  colors_->InsertNextValue(solid ? 255 : 0);
+  colors_->InsertNextValue(255);
+  aside_->InsertNextTuple2(aside, outside);
   return points_->InsertNextPoint(p.x(), height_ - p.y(), 0);
 }
 

@@ -2,6 +2,7 @@
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
+#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
@@ -31,13 +32,15 @@ class SmoothDrawing {
   vtkSmartPointer<vtkActor> finish();
 
  private:
-  vtkIdType add_point(const Eigen::Vector2d& p, const Ink& ink, bool solid);
+  /// `aside` from the line's or disc's middle, whose edge has faded at `outside`.
+  vtkIdType add_point(const Eigen::Vector2d& p, const Ink& ink, double aside, double outside);
   void add_quad(vtkIdType a, vtkIdType b, vtkIdType c, vtkIdType d);
 
   double height_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkCellArray> polygons_;
   vtkNew<vtkUnsignedCharArray> colors_;
+  vtkNew<vtkFloatArray> aside_;
 };
 
 }  // namespace quadrille::viewer

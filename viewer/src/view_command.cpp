@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <functional>
 #include <memory>
 
@@ -27,27 +28,24 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// At once, also into a pipe, since the window may stay open for long.
+void tell(const std::string& line) {
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
 /// What the files give, and how a source would be vectorized.
 struct Opened {
   Subject subject;
   VectorizeOptions vectorize;
 };
 
-std::shared_ptr<const Raster> read_source(const std::filesystem::path& path,
-                                          cli::Observer& observer) {
-  return std::make_shared<const Raster>(cli::read_raster(path, observer));
-}
-
-void check_source(const Subject& subject, const ViewOptions& options) {
-  if (subject.image->width == subject.source->width &&
-      subject.image->height == subject.source->height) {
-    return;
-  }
-  throw Error(ErrorCode::invalid_argument,
-              fmt::format("'{}' of {} x {} pixels is not the source of '{}' of {} x {}; give the "
-                          "picture that it was made of",
-                          options.source.string(), subject.source->width, subject.source->height,
-                          options.input.string(), subject.image->width, subject.image->height));
+/// Nothing could heed these options.
+void check_sourceless(const ViewOptions& options) {
+  cli::check_mesh_options(options.input, options.mesh);
+  if (!options.compare) return;
+  throw cli::UsageError("--compare needs the picture that '" + options.input.string() +
+                        "' was made of; give it with --source PICTURE");
 }
 
 Opened open(const ViewOptions& options, cli::Observer& observer) {
@@ -55,17 +53,21 @@ Opened open(const ViewOptions& options, cli::Observer& observer) {
   if (cli::is_document(options.input)) {
     opened.subject.image = std::make_shared<const VectorImage>(
         cli::read_vector_image(options.input, options.mesh, observer));
-    if (!options.source.empty()) opened.subject.source = read_source(options.source, observer);
+    opened.subject.source =
+        cli::read_source(options.input, options.source, *opened.subject.image, observer);
   } else {
     if (!options.source.empty()) {
       throw cli::UsageError("--source goes with a file of patches; a picture is its own source");
     }
-    opened.subject.source = read_source(options.input, observer);
+    opened.subject.source =
+        std::make_shared<const Raster>(cli::read_raster(options.input, observer));
   }
-  if (!opened.subject.source) return opened;
+  if (!opened.subject.source) {
+    check_sourceless(options);
+    return opened;
+  }
   cli::MeshOptions mesh = options.mesh;
   if (opened.subject.image) {
-    check_source(opened.subject, options);
     if (!mesh.quads) mesh.quads = std::max(opened.subject.image->patch_count(), 1);
   }
   opened.vectorize = choose_options(mesh, *opened.subject.source, observer).vectorize;
@@ -125,7 +127,7 @@ void print_rate(const char* name, int frames, ViewerWindow& window,
     change(window.session().view, i < frames / 2);
     window.draw();
   }
-  fmt::print("{}: {:.1f} frames a second\n", name, frames / seconds_since(start));
+  tell(fmt::format("{}: {:.1f} frames a second", name, frames / seconds_since(start)));
   window.session().view = before;
 }
 
@@ -147,7 +149,7 @@ int view(const ViewOptions& options) {
   cli::Observer observer(options.run.verbosity(), options.run.threads);
   Opened opened = open(options, observer);
   if (screenshot) complete(opened, layers, options, observer);
-  if (options.timings) fmt::print("read: {:.3f} s\n", seconds_since(start));
+  if (options.timings) tell(fmt::format("read: {:.3f} s", seconds_since(start)));
 
   ViewerWindow window(opened.subject, opened.vectorize, settings_for(options));
   set_up(window.session(), layers, options);
@@ -155,7 +157,7 @@ int view(const ViewOptions& options) {
   if (options.pick) window.pick_at(*options.pick);
   window.draw();
   if (options.timings) {
-    fmt::print("shown: {:.3f} s\n", seconds_since(start));
+    tell(fmt::format("shown: {:.3f} s", seconds_since(start)));
     print_rates(window);
   }
   if (screenshot) {

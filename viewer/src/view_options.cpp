@@ -72,7 +72,7 @@ void add_parsed(CLI::App& parser, ViewOptions& options, const std::string& name,
 }  // namespace
 
 void declare_view_options(CLI::App& parser, ViewOptions& options) {
-  cli::declare_input(parser, options.input, "picture, or file of patches (.quad, .vtu)");
+  cli::declare_input(parser, options.input, "picture, or file of patches (.quad, .vtu, .vtm)");
   parser
       .add_option(
           "--source", options.source,
@@ -100,7 +100,7 @@ void declare_view_options(CLI::App& parser, ViewOptions& options) {
   parser
       .add_option("--compare", options.compare,
                   "show the source left of this share of the window, 0 to 1")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(cli::number_from(0, 1));
   parser.add_flag("--panels", options.panels, "texts and sliders in the screenshot, too")
       ->needs(screenshot);
   parser.add_flag(

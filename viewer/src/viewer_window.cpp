@@ -17,6 +17,10 @@ namespace {
 
 constexpr int kPollMilliseconds = 150;
 
+/// In shares of the window, from its bottom left corner.
+const Eigen::AlignedBox2d kSliders(Eigen::Vector2d(0.54, 0.01), Eigen::Vector2d(0.995, 0.11));
+constexpr LogSlider::Place kQuadsPlace = {0.56, 0.75, 0.08}, kLambdaPlace = {0.79, 0.98, 0.08};
+
 vtkSmartPointer<vtkRenderWindow> make_window(const WindowSettings& settings, vtkRenderer* scene,
                                              vtkRenderer* overlay) {
   auto window = vtkSmartPointer<vtkRenderWindow>::New();
@@ -67,6 +71,7 @@ ViewerWindow::~ViewerWindow() {
 }
 
 void ViewerWindow::add_sliders() {
+  overlay_->AddViewProp(make_slider_ground(kSliders));
   const double least_quads = std::min(50, options_.quads);
   const double lambda = options_.cross_field.alignment;
   const SliderRange lambda_range = {std::min(0.01, lambda), std::max(1.0, lambda)};
@@ -74,15 +79,14 @@ void ViewerWindow::add_sliders() {
   const double pixels = static_cast<double>(source.width) * source.height;
   const double most_quads =
       std::clamp(pixels / 4, std::max(2.0 * options_.quads, 100.0), 2.0 * kMaxQuads);
-  quads_slider_.emplace(interactor_, overlay_, SliderRange{least_quads, most_quads},
-                        LogSlider::Place{0.56, 0.75, 0.08});
+  quads_slider_.emplace(interactor_, overlay_, SliderRange{least_quads, most_quads}, kQuadsPlace);
   quads_slider_->set_title([](double quads) { return fmt::format("quads {:.0f}", quads); });
   quads_slider_->set_value(options_.quads);
   quads_slider_->on_release([this](double quads) {
     options_.quads = std::min(static_cast<int>(std::lround(quads)), kMaxQuads);
     vectorize_again();
   });
-  lambda_slider_.emplace(interactor_, overlay_, lambda_range, LogSlider::Place{0.79, 0.98, 0.08});
+  lambda_slider_.emplace(interactor_, overlay_, lambda_range, kLambdaPlace);
   lambda_slider_->set_title([](double value) { return fmt::format("lambda {:.2g}", value); });
   lambda_slider_->set_value(lambda);
   lambda_slider_->on_release([this](double value) {
@@ -161,11 +165,17 @@ Panels::Texts ViewerWindow::texts() {
   return texts;
 }
 
+Eigen::AlignedBox2d ViewerWindow::slider_box() const {
+  if (!quads_slider_) return {};
+  const Eigen::Array2d window = session_.view.window().cast<double>();
+  return {(kSliders.min().array() * window).matrix(), (kSliders.max().array() * window).matrix()};
+}
+
 void ViewerWindow::draw() {
   follow_window_size();
   actors_.update(session_);
   overlay_->SetDraw(session_.panels);
-  if (session_.panels) panels_.update(texts(), session_.view.window());
+  if (session_.panels) panels_.update(texts(), session_.view.window(), slider_box());
   for (std::optional<LogSlider>* slider : {&quads_slider_, &lambda_slider_}) {
     if (*slider) (*slider)->show(session_.panels);
   }

@@ -80,6 +80,8 @@ class ViewerWindow : private Gestures {
   void follow_window_size();
   std::string status() const;
   Panels::Texts texts();
+  /// Window pixels, y up; empty without sliders.
+  Eigen::AlignedBox2d slider_box() const;
 
   enum class Drag { none, undecided, picture, divider };
 

@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "quadrille/document.h"
+#include "quadrille/raster.h"
 #include "quadrille/run_context.h"
 #include "quadrille/scene_layer.h"
 #include "quadrille/vector_image.h"
@@ -129,8 +131,8 @@ void write_postscript(const VectorImage& image, const std::filesystem::path& pat
 /// corner at the origin, its front towards +z, materials double-sided; layer k lies at z = k (1 +
 /// |relief|). Transparent patches are left out. The mesh's extras.quadrille_document holds the
 /// layer's patches: a quantised document in base64. Where nothing can be seen the scene is empty.
-/// Throws Error{invalid_argument} for patches that are not finite or 1e7 pixels away, or options out
-/// of range, and Error{limit_exceeded} above 2^26 quads in a layer.
+/// Throws Error{invalid_argument} for patches that are not finite or 1e7 pixels away, or options
+/// out of range, and Error{limit_exceeded} above 2^26 quads in a layer.
 void write_gltf(const VectorImage& image, const std::filesystem::path& path,
                 const GltfOptions& options = {}, const RunContext& context = {});
 /// One Bezier quadrilateral (VTK cell type 77) per patch, placed as in write_gltf(). Point arrays:
@@ -160,13 +162,25 @@ void write_vtm(const Scene& scene, const std::filesystem::path& path,
 /// Error{unsupported_format} for a foreign file, Error{io_failure} for a missing or damaged one.
 VectorImage read_vtu(const std::filesystem::path& path);
 
+/// read_vtu() of the piece "patches" in the block "picture" of a file that write_vtm() wrote of a
+/// picture_group(). Throws Error{unsupported_format} for a foreign file, Error{io_failure} when the
+/// file or a piece that it names is missing or damaged.
+VectorImage read_vtm(const std::filesystem::path& path);
+
+/// The picture that these patches were made of, in 8 bits a channel, where the file keeps it as the
+/// piece "picture" of that block. Throws as read_vtm().
+std::optional<Raster> read_vtm_source(const std::filesystem::path& path);
+
 /// File endings, with the dot and in lower case, of files with patches that import_image() reads in
-/// this build: .quad and .vtu.
+/// this build: .quad, .vtu and .vtm.
 std::vector<std::string> import_endings();
 
-/// load_document() or read_vtu() by the ending of the path. Throws Error{unsupported_format} for
-/// any other ending, and as these do.
+/// load_document(), read_vtu() or read_vtm() by the ending of the path. Throws
+/// Error{unsupported_format} for any other ending, and as these do.
 VectorImage import_image(const std::filesystem::path& path);
+
+/// read_vtm_source() of a .vtm; no other format keeps the picture.
+std::optional<Raster> import_source(const std::filesystem::path& path);
 
 /// File endings, with the dot and in lower case, that export_image() writes in this build.
 std::vector<std::string> export_endings();
