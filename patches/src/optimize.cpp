@@ -25,7 +25,7 @@ constexpr double kFirstDamping = 0.3, kDampingOnSuccess = 0.4, kDampingOnFailure
 /// quads come out equally well shaped in calm and in busy pictures.
 constexpr double kShapeScale = 0.16;
 /// The colours of a round need not be better than its step.
-constexpr double kRoundTolerance = 0.1;
+constexpr double kRoundTolerance = 0.2;
 
 void check_shapes(const QuadMesh& mesh) {
   for (int q = 0; q < mesh.quad_count(); ++q) {
