@@ -11,6 +11,7 @@
 
 #include "fitted_state.h"
 #include "joint_system.h"
+#include "limit_overshoot.h"
 #include "parallel_ranges.h"
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
@@ -111,6 +112,9 @@ OptimizeReport take_rounds(PatchMesh& patches, const Raster& picture,
   state->improve(draft_options(fit), inner);
   report.fit = state->fit;
   patches = std::move(state->patches);
+  FitOptions last = draft_options(fit);
+  last.max_overshoot = fit.max_overshoot;
+  limit_overshoot(patches, picture, last, inner, report.fit);
   return report;
 }
 
