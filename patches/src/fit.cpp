@@ -11,6 +11,7 @@
 #include "fit_bessel_system.h"
 #include "fit_solver.h"
 #include "fit_system.h"
+#include "limit_overshoot.h"
 #include "parallel_ranges.h"
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
@@ -20,11 +21,13 @@ namespace {
 
 // Of fits that are only compared with each other or made again.
 constexpr double kDraftTolerance = 1e-2;
+constexpr int kOvershootRounds = 2;
 
 }  // namespace
 
 FitOptions draft_options(FitOptions options) {
   options.tolerance = std::max(options.tolerance, kDraftTolerance);
+  options.max_overshoot = std::numeric_limits<double>::infinity();
   return options;
 }
 
@@ -44,6 +47,10 @@ void check_options(const FitOptions& options) {
     reject("the fit's tolerance is " + std::to_string(options.tolerance) +
            "; use a number between 0 and 1 such as 1e-4");
   }
+  if (!(options.max_overshoot >= 0)) {
+    reject("the fit's allowed overshoot is " + std::to_string(options.max_overshoot) +
+           "; use a number from 0, or infinity for no bound");
+  }
   if (options.max_iterations < 1) {
     reject("the fit was asked for at most " + std::to_string(options.max_iterations) +
            " iterations; use 1 or more");
@@ -62,8 +69,9 @@ void check_fit(const PatchMesh& patches, const Raster& picture, const FitOptions
 namespace {
 
 FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
-                                   const FitOptions& options, const RunContext& context) {
-  ColorSystem system(patches, picture, options, context);
+                                   const FitOptions& options, const RunContext& context,
+                                   const Overshoot& overshoot = {}) {
+  ColorSystem system(patches, picture, options, context, nullptr, overshoot);
   FitReport report;
   NormalEquations::Vector correction;
   if (options.method == FitMethod::bessel_ls) {
@@ -80,6 +88,17 @@ FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
 
 }  // namespace
 
+void limit_overshoot(PatchMesh& patches, const Raster& picture, const FitOptions& options,
+                     const RunContext& context, FitReport& report) {
+  if (std::isinf(options.max_overshoot)) return;
+  Overshoot overshoot;
+  for (int round = 0; round < kOvershootRounds; ++round) {
+    if (!overshoot.find(patches, picture, options.max_overshoot)) return;
+    const FitReport again = correct_by_least_squares(patches, picture, options, context, overshoot);
+    report = {report.iterations + again.iterations, again.residual};
+  }
+}
+
 FitReport fit_colors(PatchMesh& patches, const Raster& picture, const FitOptions& options,
                      const RunContext& context) {
   check_fit(patches, picture, options);
@@ -90,6 +109,7 @@ FitReport fit_colors(PatchMesh& patches, const Raster& picture, const FitOptions
     patches.wedges = bessel_wedges(patches, picture);
     if (options.method != FitMethod::bessel) {
       report = correct_by_least_squares(patches, picture, options, context);
+      limit_overshoot(patches, picture, options, context, report);
     }
   });
   context.progress("fit", 1);

@@ -26,6 +26,10 @@ BicubicBezier<Color> colors_of(const std::array<CornerMap, 4>& corners, const Co
 CornerUnknowns transpose_of(const std::array<CornerMap, 4>& corners,
                             const BicubicBezier<Color>& gradient);
 
+/// The factors by which the unknowns at the four corners enter the patch's colour at uv.
+std::array<Eigen::Vector4f, 4> corner_factors(const std::array<CornerMap, 4>& corners,
+                                              const Eigen::Vector2d& uv);
+
 /// The moments of samples spread evenly over the parameter square, which weigh `weight` together.
 ///
 /// In Bernstein form the product of two cubic basis functions is one sextic one, up to a factor, so

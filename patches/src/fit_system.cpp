@@ -82,7 +82,8 @@ void add_correction(const ColorSystem::Vector& correction, std::vector<Wedge>& w
 }
 
 ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, const FitOptions& options,
-                         const RunContext& context, std::vector<SampleBlock>* keep)
+                         const RunContext& context, std::vector<SampleBlock>* keep,
+                         const Overshoot& overshoot)
     : channels_(picture.channels),
       wedge_corners_(patches),
       mixed_(patches, picture, rows_),
@@ -91,6 +92,7 @@ ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, const 
       inverse_blocks_(patches.wedges.size()) {
   right_hand_side.resize(patches.wedges.size());
   if (options.smoothness > 0) add_smoothness(patches, options.smoothness, rows_);
+  overshoot.add_equations(patches, rows_);
   rows_.finish(patches.wedges.size());
   assemble(patches, picture, options.regularization, context, keep);
   rows_.evaluate_residual();

@@ -6,6 +6,7 @@
 #include "fit_lanes.h"
 #include "fit_solver.h"
 #include "mixed_pixels.h"
+#include "overshoot.h"
 #include "patch_samples.h"
 #include "quadrille/patch_mesh.h"
 #include "quadrille/raster.h"
@@ -21,9 +22,10 @@ class ColorSystem : public NormalEquations {
  public:
   /// Scans the picture. The correction is damped as if every square pixel had another equation of
   /// weight options.regularization that asks for no correction. With `keep` the samples are left
-  /// there.
+  /// there. The equations of `overshoot` are added to the others.
   ColorSystem(const PatchMesh& patches, const Raster& picture, const FitOptions& options,
-              const RunContext& context, std::vector<SampleBlock>* keep = nullptr);
+              const RunContext& context, std::vector<SampleBlock>* keep = nullptr,
+              const Overshoot& overshoot = {});
 
   Eigen::Array4d multiply(const Vector& x, Vector& product) override;
   const Eigen::Matrix4f& inverse_block(int wedge) const override { return inverse_blocks_[wedge]; }
@@ -36,7 +38,7 @@ class ColorSystem : public NormalEquations {
   int channels() const { return channels_; }
   const WedgeCorners& wedge_corners() const { return wedge_corners_; }
   const MixedPixels& mixed_pixels() const { return mixed_; }
-  /// Those of the mixed pixels first, then what asks for smoothness.
+  /// Those of the mixed pixels first, then what asks for smoothness and against overshoot.
   const WedgeRows& rows() const { return rows_; }
   /// Patch q has place q % kLaneCount of group q / kLaneCount.
   const std::vector<ElementGroup>& groups() const { return groups_; }

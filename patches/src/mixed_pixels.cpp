@@ -28,26 +28,6 @@ bool has_mixed_pixels(const QuadMesh& mesh, const Raster& picture) {
   return false;
 }
 
-/// The factors by which the unknowns at the four corners enter the patch's colour at uv.
-std::array<Eigen::Vector4f, 4> corner_factors(const std::array<CornerMap, 4>& corners,
-                                              const Eigen::Vector2d& uv) {
-  const auto bernstein = [](double t) {
-    const double s = 1 - t;
-    return std::array{s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
-  };
-  const auto u = bernstein(uv.x()), v = bernstein(uv.y());
-  BicubicBezier<Color> weights;
-  for (int j = 0; j < 4; ++j) {
-    for (int i = 0; i < 4; ++i) {
-      weights.control[j][i] = Color::Constant(static_cast<float>(u[i] * v[j]));
-    }
-  }
-  const CornerUnknowns all = transpose_of(corners, weights);
-  std::array<Eigen::Vector4f, 4> factors;
-  for (int k = 0; k < 4; ++k) factors[k] = all[k].row(0).transpose();
-  return factors;
-}
-
 /// The rows of the pixels of one block.
 struct BlockRows {
   using Entry = WedgeRows::Entry;

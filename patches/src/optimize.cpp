@@ -11,6 +11,7 @@
 
 #include "fitted_state.h"
 #include "joint_system.h"
+#include "limit_overshoot.h"
 #include "parallel_ranges.h"
 #include "quadrille/error.h"
 #include "quadrille/patch_geometry.h"
@@ -25,7 +26,7 @@ constexpr double kFirstDamping = 0.3, kDampingOnSuccess = 0.4, kDampingOnFailure
 /// quads come out equally well shaped in calm and in busy pictures.
 constexpr double kShapeScale = 0.16;
 /// The colours of a round need not be better than its step.
-constexpr double kRoundTolerance = 0.1;
+constexpr double kRoundTolerance = 0.2;
 
 void check_shapes(const QuadMesh& mesh) {
   for (int q = 0; q < mesh.quad_count(); ++q) {
@@ -111,6 +112,9 @@ OptimizeReport take_rounds(PatchMesh& patches, const Raster& picture,
   state->improve(draft_options(fit), inner);
   report.fit = state->fit;
   patches = std::move(state->patches);
+  FitOptions last = draft_options(fit);
+  last.max_overshoot = fit.max_overshoot;
+  limit_overshoot(patches, picture, last, inner, report.fit);
   return report;
 }
 

@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kRounds = 12, kSweeps = 12;
 constexpr double kHold = 0.02;  // see VertexStar::improved()
+// Rounds in which the corners of bad quads are spread, and later those of the quads around them.
+constexpr int kSpreadRound = 4, kWideSpreadRound = 8, kSpreadSweeps = 8;
 
 /// Lets a vertex go where it likes, along the border if it lies there.
 void release(QuadMesh& mesh, int v, std::span<VertexGuide> guides) {
@@ -32,6 +34,19 @@ void loosen(const QuadMesh& mesh, int v, std::span<VertexGuide> guides) {
   guides[v] = VertexGuide::on_line(mesh.vertices[v], (ends[1] - ends[0]).normalized());
 }
 
+/// Draws free vertices to the middle of their neighbours, which opens quads that have shrunk to
+/// almost nothing; smoothing alone moves a vertex in proportion to the edges there.
+void spread(QuadMesh& mesh, std::span<const int> vertices, std::span<const VertexGuide> guides) {
+  for (int sweep = 0; sweep < kSpreadSweeps; ++sweep) {
+    for (const int v : vertices) {
+      if (mesh.is_border_vertex(v) || guides[v].kind != VertexGuide::Kind::free) continue;
+      Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+      for (const int h : mesh.fan(v)) sum += mesh.vertices[mesh.tip(h)];
+      mesh.vertices[v] = sum / static_cast<double>(mesh.fan(v).size());
+    }
+  }
+}
+
 }  // namespace
 
 void release_bad_features(QuadMesh& mesh, std::span<VertexGuide> guides, double least_sine) {
@@ -49,7 +64,13 @@ void release_bad_features(QuadMesh& mesh, std::span<VertexGuide> guides, double 
         if (round > 1) release(mesh, v, guides);
       }
     }
-    const std::vector<int> around = corners_of(mesh, quads_at(mesh, corners_of(mesh, bad)));
+    const std::vector<int> corners = corners_of(mesh, bad);
+    const std::vector<int> around = corners_of(mesh, quads_at(mesh, corners));
+    if (round == kSpreadRound) spread(mesh, corners, guides);
+    if (round == kWideSpreadRound) {
+      for (const int v : around) release(mesh, v, guides);
+      spread(mesh, around, guides);
+    }
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       for (const int v : around) {
         collect_star(mesh, v, wedges);

@@ -15,6 +15,7 @@ constexpr int kGraphicColors = 128;
 constexpr double kGraphicSharpness = 0.8, kGraphicChainShare = 0.6;
 // Edges are drawn sharper where the colours beside them bend less.
 constexpr double kGraphicSmoothness = 0.25;
+constexpr double kGraphicOvershoot = 0.005;
 constexpr double kLeastPixelsPerQuad = 2.5;
 
 double rounded_to_two_digits(double value) {
@@ -75,6 +76,7 @@ void apply(const Preset& preset, const Raster& picture, VectorizeOptions& option
   options.chain_share = kGraphicChainShare;
   options.least_chain_gain = 0;
   options.fit.smoothness = kGraphicSmoothness;
+  options.fit.max_overshoot = kGraphicOvershoot;
 }
 
 }  // namespace quadrille
