@@ -14,8 +14,8 @@ constexpr double kSmallestSide = 1;
 constexpr int kCounts[] = {1, 2, 3, 4, 6, 8, 12, 24};
 constexpr int kCountCount = static_cast<int>(std::size(kCounts));
 /// Added before colours are cut off to whole steps. MuPDF and Ghostscript cut off the colours of
-/// pixels in turn, which darkens them by half a step, and pdf.js does so twice; poppler rounds. This
-/// lies between.
+/// pixels in turn, which darkens them by half a step, and pdf.js does so twice; poppler rounds.
+/// This lies between.
 constexpr float kRounding = 0.875f;
 /// Counts below this index are fitted to the coarse samples, all of them to the fine ones.
 constexpr int kCoarseCounts = 6, kCoarseSamples = 24 + 2, kFineSamples = 72 + 2;
