@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <memory>
 #include <sstream>
 
@@ -149,6 +150,8 @@ VtkArrayFile::VtkArrayFile(const std::filesystem::path& path, Kind kind)
   if (appended == file_.npos) {
     refuse_form("it has no appended data");
   }
+  constexpr std::size_t kLongestHeader = std::numeric_limits<int>::max();  // for the parser
+  if (appended > kLongestHeader) refuse_form("its header has more than 2 GiB");
   HeaderParser parser(*this);
   parser.parse(std::string_view(file_).substr(0, appended));
   if (parser.file_type != name_of(kind)) refuse_form(std::string("it is no ") + name_of(kind));
@@ -212,11 +215,10 @@ std::vector<std::byte> VtkArrayFile::numbers(Part part, const std::string& name,
   if (array.type != type || array.components != components) {
     refuse("the array '" + name + "' has a wrong type");
   }
-  std::vector<std::byte> bytes = content_of(array);
-  if (bytes.size() != array.tuples * tuple_bytes) {
+  if (size_of(array) != array.tuples * tuple_bytes) {  // before memory is taken for it
     refuse("the array '" + name + "' has a wrong size");
   }
-  return bytes;
+  return content_of(array);
 }
 
 unsigned long long VtkArrayFile::word(std::size_t at) const {
@@ -226,9 +228,27 @@ unsigned long long VtkArrayFile::word(std::size_t at) const {
   return wide;
 }
 
-std::vector<std::byte> VtkArrayFile::content_of(const Array& array) const {
+/// Words for the number of blocks, the bytes of each and of a last partial one; then follow their
+/// compressed sizes and the blocks.
+struct VtkArrayFile::Blocks {
+  unsigned long long count = 0, size = 0, last = 0;
+
+  unsigned long long total() const { return count > 0 ? size * (count - (last > 0)) + last : 0; }
+};
+
+std::size_t VtkArrayFile::begin_of(const Array& array) const {
   if (array.format != "appended") refuse_form("an array is not appended");
-  const std::size_t at = data_begin_ + array.offset;  // both below 2^60
+  return data_begin_ + array.offset;  // both below 2^60
+}
+
+/// Bytes of the content, as far as what stands in front of it can be believed.
+unsigned long long VtkArrayFile::size_of(const Array& array) const {
+  const std::size_t at = begin_of(array);
+  return compressed_ ? blocks_at(at).total() : word(at);
+}
+
+std::vector<std::byte> VtkArrayFile::content_of(const Array& array) const {
+  const std::size_t at = begin_of(array);
   if (compressed_) return inflated(at);
   const unsigned long long size = word(at);
   if (size > file_.size() - at - word_bytes_) refuse("it is cut off");
@@ -236,23 +256,27 @@ std::vector<std::byte> VtkArrayFile::content_of(const Array& array) const {
   return {first, first + size};
 }
 
-/// Words for the number of blocks, the bytes of each and of a last partial one, and their
-/// compressed sizes; then the blocks.
-std::vector<std::byte> VtkArrayFile::inflated(std::size_t at) const {
-  const unsigned long long blocks = word(at);
-  if (blocks == 0) return {};
-  const unsigned long long size = word(at + word_bytes_), last = word(at + 2 * word_bytes_);
+VtkArrayFile::Blocks VtkArrayFile::blocks_at(std::size_t at) const {
+  const unsigned long long count = word(at);
+  if (count == 0) return {};
+  const Blocks blocks = {count, word(at + word_bytes_), word(at + 2 * word_bytes_)};
   const unsigned long long most = std::min(kMostGrowth * file_.size(), kLargestArray);
-  if (blocks > file_.size() / word_bytes_ || size > most / blocks || last > size) {
+  if (count > file_.size() / word_bytes_ || blocks.size > most / count ||
+      blocks.last > blocks.size) {
     refuse("a block's size is impossible");
   }
-  const unsigned long long total = size * (blocks - (last > 0)) + last;
-  std::vector<std::byte> bytes(total);
-  std::size_t from = at + (3 + blocks) * word_bytes_, to = 0;
-  for (unsigned long long b = 0; b < blocks; ++b) {
+  return blocks;
+}
+
+std::vector<std::byte> VtkArrayFile::inflated(std::size_t at) const {
+  const Blocks blocks = blocks_at(at);
+  std::vector<std::byte> bytes(blocks.total());
+  std::size_t from = at + (3 + blocks.count) * word_bytes_, to = 0;
+  for (unsigned long long b = 0; b < blocks.count; ++b) {
     const unsigned long long packed = word(at + (3 + b) * word_bytes_);
     if (from > file_.size() || packed > file_.size() - from) refuse("it is cut off");
-    const unsigned long long wanted = b + 1 == blocks && last > 0 ? last : size;
+    const bool is_partial = b + 1 == blocks.count && blocks.last > 0;
+    const unsigned long long wanted = is_partial ? blocks.last : blocks.size;
     uLongf length = wanted;
     if (uncompress(reinterpret_cast<Bytef*>(bytes.data()) + to, &length,
                    reinterpret_cast<const Bytef*>(file_.data()) + from, packed) != Z_OK ||

@@ -15,7 +15,7 @@ namespace quadrille {
 /// The arrays of an unstructured grid or an image in VTK's XML format with raw appended data, plain
 /// or compressed by zlib. VTK's own reader believes what a file says of its sizes and crashes on
 /// damaged ones; here everything is checked, and an array takes at most 1032 times the
-/// file's size and 4 GiB.
+/// file's size and 4 GiB, one of numbers also no more than its tuples.
 class VtkArrayFile {
  public:
   enum class Part { field, cell, point };
@@ -70,7 +70,11 @@ class VtkArrayFile {
 
   std::vector<std::byte> numbers(Part part, const std::string& name, const char* type,
                                  std::size_t components, std::size_t tuple_bytes) const;
+  struct Blocks;
+  std::size_t begin_of(const Array& array) const;
+  unsigned long long size_of(const Array& array) const;
   std::vector<std::byte> content_of(const Array& array) const;
+  Blocks blocks_at(std::size_t at) const;
   std::vector<std::byte> inflated(std::size_t at) const;
   unsigned long long word(std::size_t at) const;
 

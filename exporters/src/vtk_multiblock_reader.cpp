@@ -1,5 +1,6 @@
 #include <expat.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -15,11 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uintmax_t kLargestIndex = 1 << 26;  // bytes; a layer takes about a hundred
+constexpr std::size_t kMostPixels = 300'000'000;   // as load_image() takes
+
 /// Where the index of a multi-block data set says that its pieces lie.
 class MultiblockIndex {
  public:
   explicit MultiblockIndex(const fs::path& path) : path_(path) {
-    const std::string text = read_whole(path);
+    const std::string text = read_whole(path, kLargestIndex);
     const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
         XML_ParserCreate(nullptr), XML_ParserFree);
     XML_SetUserData(parser.get(), this);
@@ -36,10 +40,19 @@ class MultiblockIndex {
     }
   }
 
-  /// A layer's file; empty when there is no such layer.
+  /// A layer's file; empty when there is no such layer. Throws Error{unsupported_format} when the
+  /// index names a file that is not below its own folder.
   fs::path piece(const std::string& group, const std::string& layer) const {
     const auto found = pieces_.find({group, layer});
-    return found == pieces_.end() ? fs::path() : path_.parent_path() / found->second;
+    if (found == pieces_.end()) return {};
+    const fs::path name = found->second;
+    if (name.is_absolute() || std::ranges::find(name, fs::path("..")) != name.end()) {
+      throw Error(ErrorCode::unsupported_format, "'" + path_.string() + "' names a part '" +
+                                                     name.string() +
+                                                     "' outside of its folder; give a file that "
+                                                     "Quadrille wrote");
+    }
+    return path_.parent_path() / name;
   }
 
  private:
@@ -72,13 +85,17 @@ class MultiblockIndex {
 
 constexpr char kGroup[] = "picture";  // see picture_group()
 
-/// read(), with a word about the index in front of what it says of a piece that is missing.
+/// read(), with a word about the index in front of what it says of a piece that cannot be reached.
 template <class Read>
 auto read_piece(const fs::path& index, const fs::path& piece, const Read& read) {
-  if (!fs::exists(piece)) {
-    throw Error(ErrorCode::io_failure, "cannot read '" + index.string() + "': its part '" +
-                                           piece.string() +
-                                           "' is missing; keep that folder beside the file");
+  std::error_code error;
+  const fs::file_status status = fs::status(piece, error);
+  if (!fs::exists(status)) {
+    throw Error(ErrorCode::io_failure,
+                "cannot read '" + index.string() + "': its part '" + piece.string() + "' " +
+                    (fs::status_known(status) ? "is missing"
+                                              : "cannot be reached (" + error.message() + ")") +
+                    "; keep that folder beside the file");
   }
   return read(piece);
 }
@@ -101,6 +118,13 @@ Raster raster_of(const VtkArrayFile& file, const char* name) {
 
 Raster read_picture(const fs::path& path) {
   const VtkArrayFile file(path, VtkArrayFile::Kind::image);
+  const auto [width, height] = file.pixels();
+  if (width * height > kMostPixels) {  // both below 2^31
+    throw Error(ErrorCode::limit_exceeded,
+                "'" + path.string() + "' has " + std::to_string(width) + " x " +
+                    std::to_string(height) + " pixels, more than the limit of " +
+                    std::to_string(kMostPixels) + "; use a smaller picture");
+  }
   return file.has(VtkArrayFile::Part::cell, "rgba") ? raster_of<4>(file, "rgba")
                                                     : raster_of<3>(file, "rgb");
 }

@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -30,6 +34,11 @@ fs::path fresh_folder(const std::string& name) {
   fs::remove_all(folder);
   fs::create_directory(folder);
   return folder;
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {
@@ -175,10 +184,26 @@ TEST(VtkScene, RefusesToReadWhatIsNotItsOwn) {
   expect_refused("<VTKFile type=\"PolyData\"/>", ErrorCode::unsupported_format);
   expect_refused(head + "</vtkMultiBlockDataSet></VTKFile>", ErrorCode::unsupported_format);
   expect_refused(head, ErrorCode::io_failure);
+  const auto expect_refused_piece = [&](const std::string& name, ErrorCode code) {
+    expect_refused(head + "<Block name=\"picture\"><DataSet name=\"patches\" file=\"" + name +
+                       "\"/></Block></vtkMultiBlockDataSet></VTKFile>",
+                   code);
+  };
+  for (const char* outside : {"/dev/zero", "../foreign_index/a_vtm/picture_patches.vtu", "..",
+                              "a_vtm/../a_vtm/picture_patches.vtu"}) {
+    expect_refused_piece(outside, ErrorCode::unsupported_format);
+  }
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder / "zero");
+  fs::create_symlink("loop", folder / "loop");
+  for (const std::string& unreadable :
+       {std::string("pipe"), std::string("zero"), std::string("loop"), std::string("."),
+        std::string(300, 'b'), std::string("none.vtu")}) {
+    expect_refused_piece(unreadable, ErrorCode::io_failure);
+  }
 
   const fs::path pixels = folder / "a_vtm" / "picture_picture.vti";
-  std::ifstream file(pixels, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = bytes_of(pixels);
   for (const char* extent : {"0 41 0 30 0 0", "0 -1 0 30 0 0", "1 40 0 30 0 0", "0 40 0 30", "",
                              "0 4000000000 0 4000000000 0 0", "0 0 0 0 0 0"}) {
     SCOPED_TRACE(extent);
@@ -190,6 +215,52 @@ TEST(VtkScene, RefusesToReadWhatIsNotItsOwn) {
   }
   fs::remove(pixels);
   EXPECT_EQ(error_of_reading(folder / "a.vtm"), ErrorCode::io_failure);
+}
+
+TEST(VtkScene, RefusesWhatIsTooLargeBeforeReadingIt) {
+  const fs::path folder = fresh_folder("large");
+  const Raster picture(40, 30, 3);
+  write_vtm(
+      {40, 30, {picture_group(std::make_shared<const VectorImage>(random_picture()), &picture)}},
+      folder / "a.vtm");
+  const fs::path pixels = folder / "a_vtm" / "picture_picture.vti";
+  std::string bytes = bytes_of(pixels);
+  const auto at = bytes.find("<Piece Extent=\"") + 15;
+  bytes.replace(at, bytes.find('"', at) - at, "0 20000 0 15001 0 0");
+  std::ofstream(pixels, std::ios::binary) << bytes;
+  EXPECT_EQ(error_of_reading(folder / "a.vtm"), ErrorCode::limit_exceeded);
+
+  fs::resize_file(folder / "a.vtm", 5'000'000'000);  // of which the disk holds none
+  EXPECT_EQ(error_of_reading(folder / "a.vtm"), ErrorCode::limit_exceeded);
+}
+
+TEST(VtkScene, RefusesPixelsThatClaimMoreBytesThanTheyTake) {
+  const fs::path folder = fresh_folder("claim");
+  const Raster picture(40, 30, 3);
+  write_vtm(
+      {40, 30, {picture_group(std::make_shared<const VectorImage>(random_picture()), &picture)}},
+      folder / "a.vtm");
+  const fs::path pixels = folder / "a_vtm" / "picture_picture.vti";
+  std::string bytes = bytes_of(pixels);
+  ASSERT_NE(bytes.find("header_type=\"UInt64\""), std::string::npos);
+  const auto offset = bytes.find("offset=\"", bytes.find("Name=\"rgb\"")) + 8;
+  const auto blocks =
+      bytes.find('_', bytes.find("<AppendedData")) + 1 + std::stoul(bytes.substr(offset));
+  // Numbers of blocks, of bytes of each, and of bytes of a last partial one.
+  std::array<std::uint64_t, 3> sizes = {};
+  std::memcpy(sizes.data(), bytes.data() + blocks, sizeof sizes);
+  ASSERT_EQ(sizes[0], 1);
+  ASSERT_EQ(sizes[2], 40 * 30 * 3);
+  ++sizes[2];
+  std::memcpy(bytes.data() + blocks, sizes.data(), sizeof sizes);
+  std::ofstream(pixels, std::ios::binary) << bytes;
+  try {
+    read_vtm_source(folder / "a.vtm");
+    FAIL() << "was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::io_failure);
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("wrong size"));
+  }
 }
 
 TEST(VtkScene, SurfaceFacesTheViewer) {
@@ -257,10 +328,6 @@ TEST(VtkScene, LeavesNothingBehindWhenCancelledAnywhere) {
 }
 
 TEST(VtkScene, IsTheSameForAnyThreadCount) {
-  const auto bytes_of = [](const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(file), {}};
-  };
   const Scene scene = scene_with_all_stages();
   const fs::path folder = fresh_folder("threads");
   RunContext three;

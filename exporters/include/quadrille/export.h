@@ -163,12 +163,14 @@ void write_vtm(const Scene& scene, const std::filesystem::path& path,
 VectorImage read_vtu(const std::filesystem::path& path);
 
 /// read_vtu() of the piece "patches" in the block "picture" of a file that write_vtm() wrote of a
-/// picture_group(). Throws Error{unsupported_format} for a foreign file, Error{io_failure} when the
-/// file or a piece that it names is missing or damaged.
+/// picture_group(). Throws Error{unsupported_format} for a foreign file or one that names a piece
+/// outside of its own folder, Error{io_failure} when the file or the piece is missing or damaged,
+/// Error{limit_exceeded} for a file of more than 64 MiB (without its pieces).
 VectorImage read_vtm(const std::filesystem::path& path);
 
 /// The picture that these patches were made of, in 8 bits a channel, where the file keeps it as the
-/// piece "picture" of that block. Throws as read_vtm().
+/// piece "picture" of that block. Throws as read_vtm(), and Error{limit_exceeded} for more than 300
+/// million pixels.
 std::optional<Raster> read_vtm_source(const std::filesystem::path& path);
 
 /// File endings, with the dot and in lower case, of files with patches that import_image() reads in
