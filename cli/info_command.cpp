@@ -15,9 +15,10 @@ namespace quadrille::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 struct InfoRequest {
-  std::filesystem::path input;
+  fs::path input;
   bool json = false;
 };
 
@@ -71,21 +72,29 @@ Json json_of(const Contents& c) {
           {"bounding_box", box_of(c)}};
 }
 
+/// 0 for what is no file or cannot be reached.
+std::uintmax_t bytes_of(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return 0;
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  return error ? 0 : bytes;
+}
+
 /// With the pieces of a .vtm, which lie in a folder beside it.
-std::uintmax_t stored_bytes(const std::filesystem::path& path) {
-  std::uintmax_t bytes = std::filesystem::file_size(path);
+std::uintmax_t stored_bytes(const fs::path& path) {
+  std::uintmax_t bytes = bytes_of(path);
   if (ending_of(path) != ".vtm") return bytes;
-  std::filesystem::path folder = path;
+  fs::path folder = path;
   folder.replace_extension() += "_vtm";
   std::error_code missing;  // another program may have named it otherwise
-  for (const auto& piece : std::filesystem::directory_iterator(folder, missing)) {
-    if (piece.is_regular_file()) bytes += piece.file_size();
+  for (fs::directory_iterator piece(folder, missing), end; piece != end; piece.increment(missing)) {
+    bytes += bytes_of(piece->path());
   }
   return bytes;
 }
 
 /// The image of a file; what a file that is no .quad document does not tell of its storage is 0.
-StoredImage read_stored(const std::filesystem::path& path) {
+StoredImage read_stored(const fs::path& path) {
   if (ending_of(path) == ".quad") return load_document_and_storage(path);
   StoredImage stored{import_image(path), {}};
   stored.storage.file_bytes = stored_bytes(path);
@@ -99,9 +108,8 @@ double bytes_per_patch(const DocumentStorage& storage, const Contents& all) {
   return all.patches > 0 ? static_cast<double>(storage.file_bytes) / all.patches : 0;
 }
 
-void print_json(const std::filesystem::path& path, const DocumentStorage& storage,
-                const VectorImage& image, const std::vector<Contents>& layers,
-                const Contents& all) {
+void print_json(const fs::path& path, const DocumentStorage& storage, const VectorImage& image,
+                const std::vector<Contents>& layers, const Contents& all) {
   Json json = {{"file", printable_name(path)}, {"bytes", storage.file_bytes}};
   if (is_quad(storage)) json["version"] = storage.version;
   json.update({{"width", image.width}, {"height", image.height}, {"opaque", image.opaque()}});
@@ -154,9 +162,8 @@ std::string described(const Contents& c) {
   return text;
 }
 
-void print_text(const std::filesystem::path& path, const DocumentStorage& storage,
-                const VectorImage& image, const std::vector<Contents>& layers,
-                const Contents& all) {
+void print_text(const fs::path& path, const DocumentStorage& storage, const VectorImage& image,
+                const std::vector<Contents>& layers, const Contents& all) {
   print_line("file", fmt::format("{}, {} bytes", printable_name(path), storage.file_bytes) +
                          (is_quad(storage) ? fmt::format(", format version {}", storage.version)
                                            : std::string()));

@@ -16,8 +16,15 @@ fs::path folder_of(fs::path file, const std::string& suffix) {
 CompanionFolder::CompanionFolder(const fs::path& temporary, const fs::path& target,
                                  const std::string& suffix)
     : from_(folder_of(temporary, suffix)), to_(folder_of(target, suffix)) {
-  const bool is_folder = fs::is_directory(to_), is_obstacle = fs::exists(to_) && !is_folder;
-  if (is_obstacle || (is_folder && !fs::exists(target))) {
+  std::error_code error;
+  const fs::file_status status = fs::status(to_, error);
+  if (!fs::status_known(status)) {
+    throw Error(ErrorCode::io_failure, "cannot write '" + target.string() + "': its folder '" +
+                                           to_.string() + "' cannot be made (" + error.message() +
+                                           "); choose another name");
+  }
+  const bool is_folder = fs::is_directory(status), is_obstacle = fs::exists(status) && !is_folder;
+  if (is_obstacle || (is_folder && !fs::exists(target, error))) {
     throw Error(ErrorCode::io_failure,
                 "cannot write '" + target.string() + "': '" + to_.string() + "' is " +
                     (is_obstacle ? "no folder, and parts of it have to lie in one of that name"

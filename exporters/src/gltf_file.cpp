@@ -104,11 +104,15 @@ void put_binary(std::ostream& file, std::string text, std::span<const unsigned c
 /// write_stream_atomically() would complain of a file that nobody named.
 void check_obstacles(std::span<const SideFile> files) {
   for (const SideFile& beside : files.subspan(1)) {
-    if (!fs::exists(beside.path) || fs::is_regular_file(beside.path)) continue;
-    throw Error(ErrorCode::io_failure, "cannot write '" + files.front().path.string() + "': '" +
-                                           beside.path.string() +
-                                           "', which belongs to it, is no file; move it or choose "
-                                           "another name");
+    std::error_code error;
+    const fs::file_status status = fs::status(beside.path, error);
+    if (status.type() == fs::file_type::not_found || fs::is_regular_file(status)) continue;
+    throw Error(ErrorCode::io_failure,
+                "cannot write '" + files.front().path.string() + "': '" + beside.path.string() +
+                    "', which belongs to it, " +
+                    (fs::status_known(status) ? "is no file; move it or"
+                                              : "cannot be made (" + error.message() + ");") +
+                    " choose another name");
   }
 }
 
@@ -122,7 +126,8 @@ void write_together(std::span<const SideFile> files) {
       put_bytes(stream, files.front().bytes);
       std::vector<fs::path> are_new;
       for (const SideFile& later : files.subspan(1)) {
-        if (!fs::exists(later.path)) are_new.push_back(later.path);
+        std::error_code ignored;
+        if (!fs::exists(later.path, ignored)) are_new.push_back(later.path);
       }
       write_together(files.subspan(1));
       renamed = std::move(are_new);

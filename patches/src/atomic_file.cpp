@@ -76,7 +76,8 @@ class RemovedUnlessKept {
 void write_atomically(const fs::path& named,
                       const std::function<void(const fs::path& temporary)>& write) {
   std::error_code error;
-  const fs::path target = fs::is_symlink(named, error) ? fs::weakly_canonical(named) : named;
+  const fs::path target = fs::is_symlink(named, error) ? fs::weakly_canonical(named, error) : named;
+  if (target.empty() && error) refuse(named, error.message() + "; choose another path");
   check_writable(target);
   const fs::path temporary = temporary_beside(target);
   RemovedUnlessKept guard(temporary);

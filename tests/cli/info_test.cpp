@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "command_line.h"
 #include "quadrille/document.h"
+#include "quadrille/export.h"
 
 namespace quadrille::test {
 namespace {
@@ -78,6 +80,17 @@ TEST(Info, CountsTearsAndMeasuresThemInThePicture) {
   EXPECT_EQ(text.exit_code, 0);
   EXPECT_THAT(text.out, HasSubstr("2 patches, 6 vertices, 8 wedges, 1 tear edges of 8.0 pixels"));
   EXPECT_THAT(text.out, HasSubstr("two\\nlines"));
+}
+
+TEST(Info, CountsThePiecesOfASceneThatCanBeReached) {
+  if (std::ranges::count(export_endings(), ".vtm") == 0) GTEST_SKIP() << "without VTK";
+  const fs::path folder = fresh_folder("info_scene"), scene = folder / "a.vtm";
+  expect_silent_success(quadrille({sample("formats/uniform_gray.png"), "-o", scene.string()}));
+  std::uintmax_t bytes = fs::file_size(scene);
+  for (const auto& piece : fs::directory_iterator(folder / "a_vtm")) bytes += piece.file_size();
+  EXPECT_EQ(info_of(scene)["bytes"], bytes);
+  fs::create_symlink("loop", folder / "a_vtm" / "loop");
+  EXPECT_EQ(info_of(scene)["bytes"], bytes);
 }
 
 TEST(Info, AQuantizedDocumentExportsToItself) {

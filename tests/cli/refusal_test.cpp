@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 void expect_refused(const CommandResult& result, const std::string& word) {
   EXPECT_EQ(result.exit_code, 1);
@@ -158,6 +159,11 @@ TEST(Refusal, ObstaclesBesideAFile) {
   expect_obstacle("b.vtm", "b_vtm");
   fs::create_directory(folder / "c_files");
   expect_obstacle("c.dzi", "c_files");
+  const std::string long_name(250, 'd');  // the file's name fits into 255 bytes, the others do not
+  expect_obstacle(long_name + ".dzi", long_name + "_files");
+  expect_obstacle(long_name + ".gltf", long_name + "-texture-0.png");
+  fs::create_symlink("loop.png", folder / "loop.png");
+  expect_obstacle("loop.png", "loop.png");
 }
 
 TEST(Refusal, AFolderIsToldFromAMissingFile) {
@@ -167,6 +173,10 @@ TEST(Refusal, AFolderIsToldFromAMissingFile) {
   expect_refused(quadrille({"info", (folder / "a.vtu").string()}), "it is a folder");
   expect_refused(quadrille({"info", (folder / "b.vtu").string()}), "no such file");
   expect_refused(quadrille({"info", (folder / "b.vtm").string()}), "no such file");
+  const std::string long_name = (folder / (std::string(256, 'c') + ".vtm")).string();
+  const CommandResult result = quadrille({"info", long_name});
+  expect_refused(result, "cannot read");
+  EXPECT_THAT(result.err, Not(HasSubstr("no such file")));
 }
 
 TEST(Refusal, TooLargeAScaleIsRefusedBeforeTheWork) {

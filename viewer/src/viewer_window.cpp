@@ -282,7 +282,8 @@ void ViewerWindow::cancel() {
 void ViewerWindow::save_view() {
   namespace fs = std::filesystem;
   fs::path file;
-  for (int number = 1; file.empty() || fs::exists(file); ++number) {
+  std::error_code ignored;
+  for (int number = 1; file.empty() || fs::exists(file, ignored); ++number) {
     file = settings_.saved.string() + fmt::format("-{}.png", number);
   }
   try {
