@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "quadrille/error.h"
 #include "quadrille/image_file.h"
 #include "quadrille/render.h"
+#include "quadrille/utf8_text.h"
 
 namespace quadrille::cli {
 
@@ -112,11 +112,7 @@ BoundedVectorization vectorize_picture_to_error(const Raster& picture, const fs:
 }
 
 std::string printable_name(const fs::path& path) {
-  using Json = nlohmann::json;
-  // Encoding replaces what is not UTF-8.
-  const std::string text =
-      Json(path.filename().string()).dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string name = Json::parse(text).get<std::string>();
+  std::string name = valid_utf8(path.filename().string());
   for (char& c : name) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }

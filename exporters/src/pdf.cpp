@@ -15,8 +15,8 @@
 #include "quadrille/atomic_file.h"
 #include "quadrille/error.h"
 #include "quadrille/export.h"
+#include "quadrille/utf8_text.h"
 #include "svg_text.h"
-#include "utf8_text.h"
 
 namespace quadrille {
 namespace {

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "utf8_text.h"
+#include "quadrille/utf8_text.h"
 
 namespace quadrille {
 namespace {

@@ -1,4 +1,4 @@
-#include "utf8_text.h"
+#include "quadrille/utf8_text.h"
 
 #include <cstddef>
 
@@ -24,8 +24,11 @@ std::size_t character_length(std::string_view text) {
   const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
   const bool surrogate = first == 0xED && second > 0x9F;
   const bool beyond = first == 0xF4 && second > 0x8F;
-  const bool forbidden = first == 0xEF && second == 0xBF && byte_at(text, 2) >= 0xBE;
-  return overlong || surrogate || beyond || forbidden ? 0 : length;
+  return overlong || surrogate || beyond ? 0 : length;
+}
+
+bool is_forbidden(std::string_view character) {
+  return character == "\xEF\xBF\xBE" || character == "\xEF\xBF\xBF";
 }
 
 }  // namespace
@@ -34,7 +37,8 @@ std::string valid_utf8(std::string_view text) {
   std::string valid;
   while (!text.empty()) {
     const std::size_t length = character_length(text);
-    valid += length > 0 ? text.substr(0, length) : "\xEF\xBF\xBD";
+    const std::string_view character = text.substr(0, length);
+    valid += length == 0 || is_forbidden(character) ? "\xEF\xBF\xBD" : character;
     text.remove_prefix(length > 0 ? length : 1);
   }
   return valid;

@@ -1,4 +1,4 @@
-#include "utf8_text.h"
+#include "quadrille/utf8_text.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,13 @@ TEST(Utf8Text, EachByteOfNoCharacterIsReplaced) {
   EXPECT_EQ(valid_utf8("\xC0\xAF"), mark + mark);                        // overlong
   EXPECT_EQ(valid_utf8("\xED\xA0\x80"), mark + mark + mark);             // a surrogate
   EXPECT_EQ(valid_utf8("\xF4\x90\x80\x80"), mark + mark + mark + mark);  // beyond U+10FFFF
-  EXPECT_EQ(valid_utf8("\xEF\xBF\xBF"), mark + mark + mark);             // no character in XML
+}
+
+TEST(Utf8Text, WhatXmlForbidsIsReplacedAsAWhole) {
+  const std::string mark = "\xEF\xBF\xBD";
+  EXPECT_EQ(valid_utf8("a\xEF\xBF\xBEz\xEF\xBF\xBF"), "a" + mark + "z" + mark);
+  EXPECT_EQ(valid_utf8(mark), mark);
+  EXPECT_EQ(valid_utf8("\xEF\xBE\xBF"), "\xEF\xBE\xBF");  // U+FFBF is allowed
 }
 
 }  // namespace
