@@ -23,9 +23,10 @@ std::string figure(double value) {
 
 }  // namespace
 
-Observer::Observer(Verbosity verbosity, int threads)
+Observer::Observer(Verbosity verbosity, int threads, const char* program)
     : workers_(tbb::global_control::max_allowed_parallelism,
                threads > 0 ? threads : tbb::info::default_concurrency()),
+      program_(program),
       verbosity_(verbosity),
       terminal_(verbosity != Verbosity::quiet && isatty(STDERR_FILENO) == 1) {
   context_.threads = threads;
@@ -72,7 +73,7 @@ void Observer::tell(const std::string& line) {
 void Observer::warn(const std::string& line) {
   if (verbosity_ == Verbosity::quiet) return;
   erase_bar();
-  fmt::print(stderr, "quadrille: {}\n", line);
+  fmt::print(stderr, "{}: {}\n", program_, line);
 }
 
 void Observer::erase_bar() {

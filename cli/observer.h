@@ -17,7 +17,8 @@ enum class Verbosity { quiet, normal, verbose };
 /// verbose, keeps the stages for the report, and cancels after an interrupt.
 class Observer {
  public:
-  Observer(Verbosity verbosity, int threads);
+  /// Warnings begin with the name of the program.
+  Observer(Verbosity verbosity, int threads, const char* program = "quadrille");
   ~Observer();
   Observer(const Observer&) = delete;
   Observer& operator=(const Observer&) = delete;
@@ -58,6 +59,7 @@ class Observer {
 
   // Lets the library have as many workers as asked for, even more than the machine has.
   tbb::global_control workers_;
+  const char* program_;
   Verbosity verbosity_;
   bool terminal_;
   bool bar_shown_ = false;

@@ -89,6 +89,34 @@ TEST(ViewCommand, OpensASceneFileWithTheSourceThatItKeeps) {
   }
 }
 
+TEST(ViewCommand, ShowsThePatchesOfASceneFileWhosePictureIsLost) {
+  const Files files;
+  const fs::path scene = test::scratch_dir() / "lost.vtm";
+  const Raster source = load_image(files.source);
+  write_vtm({64, 48, {picture_group(files.subject.image, &source)}}, scene);
+  const fs::path pixels = test::scratch_dir() / "lost_vtm" / "picture_picture.vti";
+  const std::vector<std::string> shown = {scene.string(), "--screenshot", files.out};
+  ASSERT_EQ(view(shown).exit_code, 0);
+  const std::string whole = bytes_of(files.out);
+  const auto with = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), shown.begin(), shown.end());
+    fs::remove(files.out);
+    return view(arguments);
+  };
+  for (const bool is_missing : {false, true}) {
+    std::ofstream(pixels) << "damaged";
+    if (is_missing) fs::remove(pixels);
+    expect_complaint(with({}), 0, "shown without its source");
+    EXPECT_EQ(bytes_of(files.out), whole);
+    expect_complaint(with({"--compare", "0.4"}), 1, "picture_picture.vti");
+    expect_complaint(with({"--quads", "30"}), 1, "picture_picture.vti");
+    const Result error = with({"--layers", "error"});
+    EXPECT_EQ(error.exit_code, 1);
+    EXPECT_NE(error.text.find("needs a source"), std::string::npos) << error.text;
+    EXPECT_EQ(with({"--source", files.source, "--compare", "0.4"}).text, "");
+  }
+}
+
 TEST(ViewCommand, GivesTheSameBytesForAnyThreadCount) {
   const Files files;
   std::string first;

@@ -48,13 +48,27 @@ void check_sourceless(const ViewOptions& options) {
                         "' was made of; give it with --source PICTURE");
 }
 
+/// What the patches were made of; null where nobody knows it, and where the file's own cannot be
+/// read and nothing asks for it.
+std::shared_ptr<const Raster> source_of(const VectorImage& image, const ViewOptions& options,
+                                        cli::Observer& observer) {
+  try {
+    return cli::read_source(options.input, options.source, image, observer);
+  } catch (const Error& error) {
+    const bool is_needed =
+        !options.source.empty() || options.compare || options.mesh != cli::MeshOptions{};
+    if (is_needed || error.code() == ErrorCode::cancelled) throw;
+    observer.warn("shown without its source: " + cli::one_line(error.what()));
+    return nullptr;
+  }
+}
+
 Opened open(const ViewOptions& options, cli::Observer& observer) {
   Opened opened;
   if (cli::is_document(options.input)) {
     opened.subject.image = std::make_shared<const VectorImage>(
         cli::read_vector_image(options.input, options.mesh, observer));
-    opened.subject.source =
-        cli::read_source(options.input, options.source, *opened.subject.image, observer);
+    opened.subject.source = source_of(*opened.subject.image, options, observer);
   } else {
     if (!options.source.empty()) {
       throw cli::UsageError("--source goes with a file of patches; a picture is its own source");
@@ -146,7 +160,7 @@ int view(const ViewOptions& options) {
   if (screenshot) cli::check_outputs({options.screenshot}, options.input, {".png"});
   const LayerList layers = options.layers.empty() ? LayerList() : parse_layers(options.layers);
   const DisplayConnection display;  // complain of it before anything is computed
-  cli::Observer observer(options.run.verbosity(), options.run.threads);
+  cli::Observer observer(options.run.verbosity(), options.run.threads, "quadrille-view");
   Opened opened = open(options, observer);
   if (screenshot) complete(opened, layers, options, observer);
   if (options.timings) tell(fmt::format("read: {:.3f} s", seconds_since(start)));
