@@ -193,12 +193,13 @@ TEST(VtkScene, RefusesToReadWhatIsNotItsOwn) {
                               "a_vtm/../a_vtm/picture_patches.vtu"}) {
     expect_refused_piece(outside, ErrorCode::unsupported_format);
   }
-  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-  fs::create_symlink("/dev/zero", folder / "zero");
-  fs::create_symlink("loop", folder / "loop");
+  ASSERT_EQ(mkfifo((folder / "b_pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder / "b_zero");
+  fs::create_symlink("b_loop", folder / "b_loop");
+  fs::create_directory(folder / "b_folder");
   for (const std::string& unreadable :
-       {std::string("pipe"), std::string("zero"), std::string("loop"), std::string("."),
-        std::string(300, 'b'), std::string("none.vtu")}) {
+       {std::string("b_pipe"), std::string("b_zero"), std::string("b_loop"),
+        std::string("b_folder"), std::string("b_none.vtu"), std::string(300, 'b')}) {
     expect_refused_piece(unreadable, ErrorCode::io_failure);
   }
 
