@@ -6,6 +6,7 @@
 
 #include "inkscape_mesh.h"
 #include "inkscape_outline.h"
+#include "paintable_patch.h"
 #include "patch_opacity.h"
 #include "svg_text.h"
 
@@ -106,7 +107,8 @@ class InkscapeSvgWriter {
   void write_layer(const Layer& layer) {
     const QuadMesh& mesh = layer.patches.mesh;
     // Half the tolerance is as good as nothing or all.
-    const std::vector<PatchOpacity> opacity = paint_opacities(layer, 0.5 * kTolerance / 255);
+    const std::vector<PatchOpacity> opacity =
+        paint_opacities(layer.patches, 0.5 * kTolerance / 255, paintable_patches(layer));
     std::vector<unsigned char> kinds(opacity.size());
     std::ranges::transform(opacity, kinds.begin(),
                            [](PatchOpacity o) { return static_cast<unsigned char>(o); });

@@ -1,3 +1,4 @@
+#include "paintable_patch.h"
 #include "pdf_shading.h"
 
 #include <gtest/gtest.h>
@@ -181,7 +182,8 @@ TEST(PdfShading, WhatIsNotFiniteOrTooFarIsNotPainted) {
     patches.mesh.vertices[12] = Vector2d(far, far);
     const VectorImage image = testing::single_layer(std::move(patches), kSize, kSize);
     const Layer& layer = image.layers[0];
-    const std::vector<PatchOpacity> opacity = paint_opacities(layer, 0.01);
+    const std::vector<PatchOpacity> opacity =
+        paint_opacities(layer.patches, 0.01, paintable_patches(layer));
     EXPECT_EQ(std::ranges::count(opacity, PatchOpacity::transparent), 4);
     Painted painted(layer, 2);
     EXPECT_LE(painted.layer.grid.largest(0), 1e4);
