@@ -237,6 +237,13 @@ TEST_F(Pdf, HostileMeshesAreSound) {
   }
 }
 
+TEST_F(Pdf, TheUnderlayOfAThinLayerHasAPixelPerPatch) {
+  PatchMesh patches = straight_patches(testing::lattice(4, 1, 9e6, 1e-12));
+  testing::set_linear_colors(patches, Color(0.2f, 0.3f, 0.4f, 1));
+  save(testing::single_layer(std::move(patches), kWidth, kHeight), output("thin.pdf"));
+  EXPECT_THAT(bytes_of(output("thin.pdf")), HasSubstr("/Width 4 "));
+}
+
 TEST_F(Pdf, AHundredThousandQuads) {
   PatchMesh patches = straight_patches(testing::lattice(400, 250, 1600, 1000));
   testing::set_linear_colors(patches, Color(0.2f, 0.3f, 0.4f, 1), Color(2e-4f, 0, 0, 0));
@@ -248,7 +255,6 @@ TEST_F(Pdf, AHundredThousandQuads) {
 
 TEST_F(Pdf, CancellingLeavesNoFile) {
   RunContext context;
-  context.on_progress = [](const std::string&, double) { return false; };
   for (const double until : {0.0, 0.5, 0.96}) {
     context.on_progress = [&](const std::string&, double part) { return part < until; };
     EXPECT_THROW(save(random_picture(), output("cancelled.pdf"), {}, context), Error) << until;
