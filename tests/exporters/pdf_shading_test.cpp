@@ -1,4 +1,3 @@
-#include "paintable_patch.h"
 #include "pdf_shading.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +9,10 @@
 #include <limits>
 #include <vector>
 
+#include "paintable_patch.h"
 #include "patch_opacity.h"
 #include "pdf_layer.h"
+#include "support/programs.h"
 #include "support/random_patches.h"
 
 namespace quadrille {
@@ -79,7 +80,7 @@ std::vector<ReadPatch> patches_in(const Bytes& data, const CoordinateGrid& grid)
 }
 
 struct Painted {
-  ScratchFile scratch;
+  ScratchFile scratch{test::scratch_dir() / "painted.pdf"};
   PaintedLayer layer;
 
   Painted(const Layer& drawn, double tolerance)
