@@ -20,6 +20,8 @@ using Eigen::Vector2d;
 constexpr double kOutlineBleed = 1, kMeshBleed = 1.5;
 /// Colour error in 8-bit steps, see is_faithful_bicubic() and divisions_of().
 constexpr double kTolerance = 12;
+/// The share of the work that is done when the grids of a layer are found.
+constexpr double kFinding = 0.5;
 
 std::string text_of(const Vector2d& p) {
   constexpr int kDecimals = 3;
@@ -112,7 +114,8 @@ class InkscapeSvgWriter {
     std::vector<unsigned char> kinds(opacity.size());
     std::ranges::transform(opacity, kinds.begin(),
                            [](PatchOpacity o) { return static_cast<unsigned char>(o); });
-    std::vector<QuadGrid> grids = regular_grids(mesh, kinds, context_);
+    std::vector<QuadGrid> grids = regular_grids(
+        mesh, kinds, [&](double part) { report(kFinding * part * mesh.quad_count()); });
     // Translucent ones first, so that they can reach under the opaque ones.
     const auto opacity_of = [&](const QuadGrid& grid) {
       return opacity[QuadMesh::quad_of(grid.tops.front())];
@@ -128,13 +131,20 @@ class InkscapeSvgWriter {
       return twin >= 0 && opacity[QuadMesh::quad_of(twin)] == PatchOpacity::opaque &&
              grid_of[QuadMesh::quad_of(twin)] > grid_of[QuadMesh::quad_of(h)];
     };
+    int written = 0;
     for (const QuadGrid& grid : grids) {
       const PlacedGrid placed(layer, grid);
       write_grid(inkscape_mesh(placed, kMeshBleed, kTolerance),
                  grid_outline(layer, grid, placed, kOutlineBleed, goes_under));
-      written_ += static_cast<int>(grid.tops.size());
-      context_.progress("write SVG", double(written_) / image_.patch_count());
+      written += static_cast<int>(grid.tops.size());
+      report(kFinding * mesh.quad_count() + (1 - kFinding) * written);
     }
+    layers_done_ += mesh.quad_count();
+  }
+
+  /// So many patches of the layer are done.
+  void report(double patches) const {
+    context_.progress("write SVG", (layers_done_ + patches) / image_.patch_count());
   }
 
   void write_grid(const InkscapeMesh& mesh, const SvgOutline& outline) {
@@ -164,7 +174,7 @@ class InkscapeSvgWriter {
   const VectorImage& image_;
   const RunContext& context_;
   int grid_count_ = 0;
-  int written_ = 0;
+  int layers_done_ = 0;  ///< patches of the layers before
 };
 
 }  // namespace

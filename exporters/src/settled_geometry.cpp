@@ -41,9 +41,9 @@ void settle_geometry(Layer& layer, const std::vector<char>& is_sound) {
   }
   place_vertices(mesh, has_place);
   for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (is_kept[e]) continue;
     const int h = mesh.halfedge(e);
-    if (!is_kept[e])
-      patches.edge_tangents[e].fill(mesh.vertices[mesh.tip(h)] - mesh.vertices[mesh.origin(h)]);
+    patches.edge_tangents[e].fill(mesh.vertices[mesh.tip(h)] - mesh.vertices[mesh.origin(h)]);
   }
 }
 
