@@ -23,10 +23,11 @@ struct Candidate {
 
 class GridCutter {
  public:
-  GridCutter(const QuadMesh& mesh, std::span<const unsigned char> kinds, const RunContext& context)
+  GridCutter(const QuadMesh& mesh, std::span<const unsigned char> kinds,
+             const std::function<void(double)>& progress)
       : mesh_(mesh),
         kinds_(kinds.begin(), kinds.end()),
-        context_(context),
+        progress_(progress),
         visited_(mesh.quad_count(), 0) {}
 
   /// Sizes only shrink as quads are cut out. So each candidate starts with the most there may be,
@@ -72,7 +73,7 @@ class GridCutter {
   void report() {
     constexpr long long kPerReport = 4096;
     if (evaluation_ % kPerReport != 0) return;
-    context_.progress("find grids", double(taken_) / mesh_.quad_count());
+    progress_(double(taken_) / mesh_.quad_count());
   }
 
   /// Marks the quad as visited in this evaluation; false when it has been already, as where a mesh
@@ -127,7 +128,7 @@ class GridCutter {
 
   const QuadMesh& mesh_;
   std::vector<unsigned char> kinds_;  ///< 0 for quads that are taken
-  const RunContext& context_;
+  const std::function<void(double)>& progress_;
   int taken_ = 0;
   std::vector<long long> visited_;  ///< per quad the last evaluation that reached it
   long long evaluation_ = 0;
@@ -143,8 +144,8 @@ int right_of(const QuadMesh& mesh, int h) {
 int below(const QuadMesh& mesh, int h) { return mesh.twin(QuadMesh::next(QuadMesh::next(h))); }
 
 std::vector<QuadGrid> regular_grids(const QuadMesh& mesh, std::span<const unsigned char> kinds,
-                                    const RunContext& context) {
-  return GridCutter(mesh, kinds, context).cut();
+                                    const std::function<void(double)>& progress) {
+  return GridCutter(mesh, kinds, progress).cut();
 }
 
 }  // namespace quadrille

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "quadrille/quad_mesh.h"
-#include "quadrille/run_context.h"
 
 namespace quadrille {
 
@@ -31,8 +31,9 @@ int below(const QuadMesh& mesh, int h);
 /// then the one with the lowest half-edge in its corner. `kinds` has a number per quad: quads of
 /// different kinds never share a grid, and those of kind 0 are left out. No grid has a tear, a
 /// border or an irregular vertex inside it. A corner is looked at about
-/// once, in at most kMostPerSide^2 steps. Tells the context of progress in the stage "find grids".
-std::vector<QuadGrid> regular_grids(const QuadMesh& mesh, std::span<const unsigned char> kinds,
-                                    const RunContext& context = {});
+/// once, in at most kMostPerSide^2 steps. `progress` gets the completed fraction.
+std::vector<QuadGrid> regular_grids(
+    const QuadMesh& mesh, std::span<const unsigned char> kinds,
+    const std::function<void(double)>& progress = [](double) {});
 
 }  // namespace quadrille

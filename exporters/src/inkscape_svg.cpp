@@ -6,6 +6,7 @@
 
 #include "inkscape_mesh.h"
 #include "inkscape_outline.h"
+#include "paintable_patch.h"
 #include "patch_opacity.h"
 #include "svg_text.h"
 
@@ -19,6 +20,8 @@ using Eigen::Vector2d;
 constexpr double kOutlineBleed = 1, kMeshBleed = 1.5;
 /// Colour error in 8-bit steps, see is_faithful_bicubic() and divisions_of().
 constexpr double kTolerance = 12;
+/// The share of the work that is done when the grids of a layer are found.
+constexpr double kFinding = 0.5;
 
 std::string text_of(const Vector2d& p) {
   constexpr int kDecimals = 3;
@@ -106,11 +109,13 @@ class InkscapeSvgWriter {
   void write_layer(const Layer& layer) {
     const QuadMesh& mesh = layer.patches.mesh;
     // Half the tolerance is as good as nothing or all.
-    const std::vector<PatchOpacity> opacity = paint_opacities(layer, 0.5 * kTolerance / 255);
+    const std::vector<PatchOpacity> opacity =
+        paint_opacities(layer.patches, 0.5 * kTolerance / 255, paintable_patches(layer));
     std::vector<unsigned char> kinds(opacity.size());
     std::ranges::transform(opacity, kinds.begin(),
                            [](PatchOpacity o) { return static_cast<unsigned char>(o); });
-    std::vector<QuadGrid> grids = regular_grids(mesh, kinds, context_);
+    std::vector<QuadGrid> grids = regular_grids(
+        mesh, kinds, [&](double part) { report(kFinding * part * mesh.quad_count()); });
     // Translucent ones first, so that they can reach under the opaque ones.
     const auto opacity_of = [&](const QuadGrid& grid) {
       return opacity[QuadMesh::quad_of(grid.tops.front())];
@@ -126,13 +131,20 @@ class InkscapeSvgWriter {
       return twin >= 0 && opacity[QuadMesh::quad_of(twin)] == PatchOpacity::opaque &&
              grid_of[QuadMesh::quad_of(twin)] > grid_of[QuadMesh::quad_of(h)];
     };
+    int written = 0;
     for (const QuadGrid& grid : grids) {
       const PlacedGrid placed(layer, grid);
       write_grid(inkscape_mesh(placed, kMeshBleed, kTolerance),
                  grid_outline(layer, grid, placed, kOutlineBleed, goes_under));
-      written_ += static_cast<int>(grid.tops.size());
-      context_.progress("write SVG", double(written_) / image_.patch_count());
+      written += static_cast<int>(grid.tops.size());
+      report(kFinding * mesh.quad_count() + (1 - kFinding) * written);
     }
+    layers_done_ += mesh.quad_count();
+  }
+
+  /// So many patches of the layer are done.
+  void report(double patches) const {
+    context_.progress("write SVG", (layers_done_ + patches) / image_.patch_count());
   }
 
   void write_grid(const InkscapeMesh& mesh, const SvgOutline& outline) {
@@ -162,7 +174,7 @@ class InkscapeSvgWriter {
   const VectorImage& image_;
   const RunContext& context_;
   int grid_count_ = 0;
-  int written_ = 0;
+  int layers_done_ = 0;  ///< patches of the layers before
 };
 
 }  // namespace

@@ -51,7 +51,8 @@ Sets sides_of_tears(const QuadMesh& mesh, const std::vector<char>& painted) {
 
 }  // namespace
 
-PaintGroups paint_groups(const QuadMesh& mesh, const std::vector<char>& painted) {
+PaintGroups paint_groups(const QuadMesh& mesh, const std::vector<char>& painted,
+                         const std::vector<char>& paintable) {
   Sets sets = sides_of_tears(mesh, painted);
   std::vector<std::pair<int, int>> neighbours;  // sets on the two sides of a tear
   std::vector<int> size(mesh.quad_count(), 0);
@@ -86,7 +87,10 @@ PaintGroups paint_groups(const QuadMesh& mesh, const std::vector<char>& painted)
   PaintGroups groups;
   groups.group.assign(mesh.quad_count(), PaintGroups::kUnpainted);
   for (int q = 0; q < mesh.quad_count(); ++q) {
-    if (!painted[q]) continue;
+    if (!painted[q]) {
+      if (!paintable.empty() && !paintable[q]) groups.group[q] = PaintGroups::kUnpaintable;
+      continue;
+    }
     groups.group[q] = std::max(group_of_set[sets.find(q)], 0);
     groups.count = std::max(groups.count, groups.group[q] + 1);
   }
@@ -101,8 +105,8 @@ Across across(const QuadMesh& mesh, const PaintGroups& groups, int h) {
   const bool torn = mesh.is_tear(mesh.edge(h));
   if (mine == its) return torn ? Across::tangled : Across::same;
   if (its > mine) return Across::open;
-  if (!torn) return Across::smooth;
-  const bool open = its == PaintGroups::kUnpainted && groups.open_unpainted;
+  if (!torn && its != PaintGroups::kUnpaintable) return Across::smooth;
+  const bool open = its < 0 && groups.open_unpainted;
   return open ? Across::open : Across::outside;
 }
 
@@ -134,7 +138,9 @@ std::vector<EdgeLoop> group_region(const QuadMesh& mesh, const PaintGroups& grou
     touched[mesh.origin(h)] = inside[QuadMesh::quad_of(h)] = 1;
     const bool ends = across(mesh, groups, h) == Across::outside;
     cuts = cuts || ends;
-    if (!ends && mesh.twin(h) >= 0) inside[QuadMesh::quad_of(mesh.twin(h))] = 1;
+    const int beyond = mesh.twin(h) < 0 ? -1 : QuadMesh::quad_of(mesh.twin(h));
+    const bool goes_on = !ends && beyond >= 0 && groups.group[beyond] != PaintGroups::kUnpaintable;
+    if (goes_on) inside[beyond] = 1;
   }
   if (!cuts) return {};
   // Whatever hides the group hides it around its vertices, too.

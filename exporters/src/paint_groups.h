@@ -11,9 +11,10 @@ namespace quadrille {
 /// on. On the two sides of a tear lie different groups wherever that can be; the patches of the
 /// lower one may reach beyond the tear, and are then cut off exactly by the region of the higher.
 struct PaintGroups {
-  static constexpr int kUnpainted = -1;
+  /// Patches that are not painted, and those that cannot be: as good as outside of the mesh.
+  static constexpr int kUnpainted = -1, kUnpaintable = -2;
 
-  std::vector<int> group;  ///< per quad, or kUnpainted
+  std::vector<int> group;  ///< per quad, or one of these
   int count = 0;
 
   /// Whether something else cuts the picture off at the border of the mesh, and toward patches that
@@ -21,8 +22,10 @@ struct PaintGroups {
   bool open_border = false, open_unpainted = false;
 };
 
-/// The groups of the painted quads; the edges toward all others are left closed.
-PaintGroups paint_groups(const QuadMesh& mesh, const std::vector<char>& painted);
+/// The groups of the painted quads; the edges toward all others are left closed. Of the others,
+/// those without `paintable` cannot be painted; empty when all can.
+PaintGroups paint_groups(const QuadMesh& mesh, const std::vector<char>& painted,
+                         const std::vector<char>& paintable = {});
 
 /// What is on the other side of a half-edge.
 enum class Across {
@@ -41,7 +44,8 @@ using EdgeLoop = std::vector<int>;
 std::vector<EdgeLoop> border_of(const QuadMesh& mesh, const std::vector<char>& inside);
 
 /// The border of the region of a group: of its patches and those around it over which it may reach,
-/// so that only its edges toward the `outside` cut anything off. Empty when there are none.
+/// so that only its edges toward the `outside` cut anything off; it never goes around patches that
+/// cannot be painted. Empty when there are no such edges.
 std::vector<EdgeLoop> group_region(const QuadMesh& mesh, const PaintGroups& groups, int group);
 
 }  // namespace quadrille

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "paintable_patch.h"
-
 namespace quadrille {
 namespace {
 
@@ -32,10 +30,11 @@ std::vector<PatchOpacity> patch_opacities(const PatchMesh& patches, double toler
   return opacities;
 }
 
-std::vector<PatchOpacity> paint_opacities(const Layer& layer, double tolerance) {
-  std::vector<PatchOpacity> opacities = patch_opacities(layer.patches, tolerance);
-  for (int q = 0; q < layer.patches.patch_count(); ++q) {
-    if (!is_paintable(layer, q)) opacities[q] = PatchOpacity::transparent;
+std::vector<PatchOpacity> paint_opacities(const PatchMesh& patches, double tolerance,
+                                          const std::vector<char>& paintable) {
+  std::vector<PatchOpacity> opacities = patch_opacities(patches, tolerance);
+  for (int q = 0; q < patches.patch_count(); ++q) {
+    if (!paintable[q]) opacities[q] = PatchOpacity::transparent;
   }
   return opacities;
 }

@@ -11,8 +11,9 @@ enum class PatchOpacity : unsigned char { transparent, translucent, opaque };
 /// Per patch; an alpha within `tolerance` (of 1) of 0 or 1 counts as such.
 std::vector<PatchOpacity> patch_opacities(const PatchMesh& patches, double tolerance);
 
-/// The same, but patches that is_paintable() refuses count as transparent.
-std::vector<PatchOpacity> paint_opacities(const Layer& layer, double tolerance);
+/// The same, but patches that are not `paintable` count as transparent.
+std::vector<PatchOpacity> paint_opacities(const PatchMesh& patches, double tolerance,
+                                          const std::vector<char>& paintable);
 
 /// The patches of this opacity in ascending order.
 std::vector<int> patches_with(const std::vector<PatchOpacity>& opacities, PatchOpacity wanted);

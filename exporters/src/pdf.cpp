@@ -1,5 +1,7 @@
 #include <cmath>
+#include <exception>
 #include <memory>
+#include <new>
 #include <ostream>
 
 // Chooses std::shared_ptr in the headers of libqpdf 11, which warn otherwise.
@@ -28,26 +30,36 @@ constexpr char kColors[] = "/DeviceRGB", kGrays[] = "/DeviceGray";
 /// The share of the work that is done when the file is being put together.
 constexpr double kPainting = 0.95;
 
-/// The data of a stream, from the scratch file when they are written.
+/// The data of a stream, from the scratch file when they are written. Keeps what reading throws in
+/// `failure`, since libqpdf only passes on its text.
 class ScratchData : public Object::StreamDataProvider {
  public:
-  ScratchData(ScratchFile& scratch, const ScratchRange& range) : scratch_(scratch), range_(range) {}
+  ScratchData(ScratchFile& scratch, const ScratchRange& range, std::exception_ptr& failure)
+      : scratch_(scratch), range_(range), failure_(failure) {}
   void provideStreamData(const QPDFObjGen&, Pipeline* pipeline) override {
-    scratch_.read(range_,
-                  [&](ScratchFile::Bytes part) { pipeline->write(part.data(), part.size()); });
-    pipeline->finish();
+    try {
+      scratch_.read(range_,
+                    [&](ScratchFile::Bytes part) { pipeline->write(part.data(), part.size()); });
+      pipeline->finish();
+    } catch (...) {
+      if (!failure_) failure_ = std::current_exception();
+      throw;
+    }
   }
 
  private:
   ScratchFile& scratch_;
   ScratchRange range_;
+  std::exception_ptr& failure_;
 };
 
 /// Builds the one page of the document.
 class PdfBuilder {
  public:
-  PdfBuilder(const VectorImage& image, const PdfOptions& options, const RunContext& context)
-      : image_(image), options_(options), context_(context) {
+  /// Needs room for temporary data beside `path`.
+  PdfBuilder(const VectorImage& image, const std::filesystem::path& path, const PdfOptions& options,
+             const RunContext& context)
+      : scratch_(path), image_(image), options_(options), context_(context) {
     pdf_.emptyPDF();
   }
 
@@ -66,7 +78,12 @@ class PdfBuilder {
     writer.setRecompressFlate(false);
     writer.setDecodeLevel(qpdf_dl_none);
     writer.setDeterministicID(true);
-    writer.write();
+    try {
+      writer.write();
+    } catch (...) {
+      if (failure_) std::rethrow_exception(failure_);
+      throw;
+    }
   }
 
  private:
@@ -215,7 +232,7 @@ class PdfBuilder {
   Object stream(const CoonsShading& shading, const CoordinateGrid& grid) {
     Object object = Object::newStream(&pdf_);
     object.replaceDict(Object::parse("<< " + shading_entries(shading, grid) + " >>"));
-    object.replaceStreamData(std::make_shared<ScratchData>(scratch_, shading.data),
+    object.replaceStreamData(std::make_shared<ScratchData>(scratch_, shading.data, failure_),
                              Object::newName("/FlateDecode"), Object::parse(predictor(shading)));
     return object;
   }
@@ -244,7 +261,8 @@ class PdfBuilder {
            "</rdf:Description>\n</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end=\"r\"?>\n";
   }
 
-  ScratchFile scratch_;  // outlives the streams that read from it
+  ScratchFile scratch_;  // outlives the streams that read from it, as does the next
+  std::exception_ptr failure_;
   QPDF pdf_;
   const VectorImage& image_;
   const PdfOptions& options_;
@@ -259,8 +277,12 @@ void write_pdf(const VectorImage& image, const std::filesystem::path& path,
   check_page_options(options);
   write_stream_atomically(path, [&](std::ostream& file) {
     try {
-      PdfBuilder(image, options, context).write(file);
-    } catch (const QPDFExc& error) {
+      PdfBuilder(image, path, options, context).write(file);
+    } catch (const Error&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
       throw Error(ErrorCode::numerical_failure, "cannot write '" + path.string() +
                                                     "': the PDF cannot be put together (" +
                                                     error.what() + "); report the picture");

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "arena_size.h"
+#include "paintable_patch.h"
 #include "patch_opacity.h"
 #include "pdf_agree.h"
 #include "pdf_region_path.h"
@@ -25,7 +26,8 @@ class LayerPainter {
         scratch_(scratch),
         arena_(arena_size(context)),
         progress_(progress),
-        opacity_(paint_opacities(layer, 0.5 * tolerance / 255)) {}
+        paintable_(paintable_patches(layer)),
+        opacity_(paint_opacities(layer.patches, 0.5 * tolerance / 255, paintable_)) {}
 
   PaintedLayer run(bool fills_page, Transparency transparency) {
     const QuadMesh& mesh = layer_.patches.mesh;
@@ -34,7 +36,7 @@ class LayerPainter {
     painted.grid = grid_ = CoordinateGrid::covering(with_margin(box));
     painted.masked = transparency == Transparency::soft_mask && !all(PatchOpacity::opaque);
 
-    PaintGroups groups = paint_groups(mesh, where_not(PatchOpacity::transparent));
+    PaintGroups groups = paint_groups(mesh, where_not(PatchOpacity::transparent), paintable_);
     groups.open_border = fills_page || painted.masked;
     groups.open_unpainted = painted.masked;
     jobs_ = painted.masked ? 2 : 1;
@@ -59,7 +61,7 @@ class LayerPainter {
       opaque[q] = opacity_[q] == PatchOpacity::opaque;
       translucent[q] = opacity_[q] == PatchOpacity::translucent;
     }
-    PaintGroups groups = paint_groups(mesh, translucent);
+    PaintGroups groups = paint_groups(mesh, translucent, paintable_);
     groups.open_border = fills_page;
     for (std::size_t q = 0; q < opacity_.size(); ++q) {
       if (opaque[q]) groups.group[q] = groups.count;
@@ -147,6 +149,7 @@ class LayerPainter {
   ScratchFile& scratch_;
   tbb::task_arena arena_;
   const std::function<void(double)>& progress_;
+  std::vector<char> paintable_;
   std::vector<PatchOpacity> opacity_;
   CoordinateGrid grid_;
   int jobs_ = 1, jobs_done_ = 0;

@@ -67,13 +67,14 @@ std::string comment_text(const std::string& title) {
 
 class PostScriptWriter {
  public:
-  PostScriptWriter(const VectorImage& image, const PdfOptions& options, bool encapsulated,
-                   const RunContext& context, std::ostream& out)
+  PostScriptWriter(const VectorImage& image, const PdfOptions& options,
+                   const std::filesystem::path& path, const RunContext& context, std::ostream& out)
       : image_(image),
         options_(options),
-        encapsulated_(encapsulated),
+        encapsulated_(lower_case_ending(path) == ".eps"),
         context_(context),
         size_(page_size(image, options)),
+        scratch_(path),
         out_(out) {}
 
   void write() {
@@ -167,9 +168,8 @@ class PostScriptWriter {
 void write_postscript(const VectorImage& image, const std::filesystem::path& path,
                       const PdfOptions& options, const RunContext& context) {
   check_page_options(options);
-  const bool encapsulated = lower_case_ending(path) == ".eps";
   write_stream_atomically(path, [&](std::ostream& file) {
-    PostScriptWriter(image, options, encapsulated, context, file).write();
+    PostScriptWriter(image, options, path, context, file).write();
   });
 }
 

@@ -39,12 +39,7 @@ class PathText {
     if (*operation) text_ += '\n';
   }
 
-  /// Regions may pass around patches that are not painted because they are not finite or too far;
-  /// viewers take seconds for paths that go there.
-  std::string number(double pixel) const {
-    constexpr double kFarthest = 1e7;
-    return to_text(std::llround(std::abs(pixel) < kFarthest ? pixel * units_ : 0));
-  }
+  std::string number(double pixel) const { return to_text(std::llround(pixel * units_)); }
 
   const Layer& layer_;
   int units_;

@@ -14,8 +14,9 @@ namespace {
 using Eigen::Vector2d;
 using Geometry = BicubicHermite<Vector2d>;
 
-/// In pixels: how far patches overlap their neighbours, twice the step of the grid; how far they go
-/// on beyond the page, and beyond edges that are cut off with anti-aliasing or hidden.
+/// In pixels: how far patches overlap their neighbours, a step of the grid at 16 bits and four at
+/// 24; how far they go on beyond the page, and beyond edges that are cut off with anti-aliasing or
+/// hidden.
 constexpr double kOverlap = 0.0625, kBeyondPage = 0.5, kBeyondEdge = 0.75;
 /// The same in parameters of a patch, at most.
 constexpr double kWidestOverlap = 0.25, kWidestReach = 0.5;

@@ -13,8 +13,11 @@ class Canvas {
   Canvas(const Eigen::AlignedBox2d& box, int pixels) : box_(box) {
     const Eigen::Vector2d size = box.sizes();
     const double side = std::sqrt(size.x() * size.y() / pixels);
-    width_ = std::clamp(static_cast<int>(std::ceil(size.x() / side)), 1, pixels);
-    height_ = std::clamp(static_cast<int>(std::ceil(size.y() / side)), 1, pixels);
+    const auto count = [&](double length) {
+      return static_cast<int>(std::clamp(std::ceil(length / side), 1.0, double(pixels)));
+    };
+    width_ = count(size.x());
+    height_ = count(size.y());
     sums_.resize(std::size_t(width_) * height_);
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "quadrille/renderer.h"
+#include "settled_geometry.h"
 
 namespace quadrille {
 namespace {
@@ -28,9 +29,10 @@ std::vector<char> shown_patches(const SheetedLayer& layer, int sheet) {
 
 /// The layer without the other patches: they turn transparent, and what separates them from the
 /// shown ones is drawn as a tear.
-Layer only(const Layer& layer, const std::vector<char>& is_shown) {
-  Layer rest = layer;
+Layer only(const SheetedLayer& layer, const std::vector<char>& is_shown) {
+  Layer rest = layer.layer();
   if (std::find(is_shown.begin(), is_shown.end(), 0) == is_shown.end()) return rest;
+  settle_geometry(rest, layer.paintable());
   PatchMesh& patches = rest.patches;
   patches.opaque = false;
   const int nothing = static_cast<int>(patches.wedges.size());
@@ -196,7 +198,7 @@ SheetTexture sheet_texture(const VectorImage& image, const SheetedLayer& layer, 
   std::vector<std::uint8_t> known(texels);
   const std::vector<char> is_shown = shown_patches(layer, sheet);
   const bool has_nothing = std::find(is_shown.begin(), is_shown.end(), 0) != is_shown.end();
-  SheetPainter(image, only(layer.layer(), is_shown), has_nothing, !layer.layer().patches.opaque)
+  SheetPainter(image, only(layer, is_shown), has_nothing, !layer.layer().patches.opaque)
       .paint(options, texture, known, context);
 
   result.alpha_mode = alpha_mode(texture, known);

@@ -14,21 +14,22 @@ constexpr double kInvisible = 0.5 / 255;  // alpha
 
 }  // namespace
 
-SheetedLayer::SheetedLayer(const Layer& layer) : layer_(layer) {
-  find_patches();
+SheetedLayer::SheetedLayer(const Layer& layer, Unpaintable unpaintable) : layer_(layer) {
+  find_patches(unpaintable);
   color_sheets();
   widen_sheets();
   join_corners();
 }
 
-void SheetedLayer::find_patches() {
+void SheetedLayer::find_patches(Unpaintable unpaintable) {
   const int count = mesh().quad_count();
   position_.reserve(count);
   color_.reserve(count);
   for (int q = 0; q < count; ++q) {
     position_.push_back(to_bezier(placed_geometry(layer_, q)));
     color_.push_back(bezier_patch(layer_.patches, q).color);
-    if (is_paintable(position_[q], color_[q])) continue;
+    paintable_.push_back(is_paintable(position_[q], color_[q]));
+    if (paintable_[q] || unpaintable == Unpaintable::hide) continue;
     throw Error(ErrorCode::invalid_argument,
                 "patch " + std::to_string(q) + " of layer '" + layer_.name +
                     "' is not finite or reaches farther than 10 million pixels; remove it or scale "
@@ -52,8 +53,8 @@ std::vector<int> SheetedLayer::torn_from(int quad) const {
 void SheetedLayer::color_sheets() {
   constexpr int kOpen = -2, kHidden = -1;
   sheet_.assign(mesh().quad_count(), kOpen);
-  for (const int q :
-       patches_with(patch_opacities(layer_.patches, kInvisible), PatchOpacity::transparent)) {
+  for (const int q : patches_with(paint_opacities(layer_.patches, kInvisible, paintable_),
+                                  PatchOpacity::transparent)) {
     sheet_[q] = kHidden;
   }
   std::vector<int> queue;

@@ -6,13 +6,18 @@
 
 namespace quadrille {
 
+/// What becomes of patches that is_paintable() refuses.
+enum class Unpaintable {
+  refuse,  ///< Error{invalid_argument} is thrown
+  hide     ///< they are not drawn
+};
+
 /// A layer as surfaces under textures see it: Bezier patches in the picture's coordinates, without
 /// those that are transparent, and what of their corners and sides is one.
 class SheetedLayer {
  public:
-  /// Keeps a reference to the layer. Throws Error{invalid_argument} when a patch is not finite or
-  /// reaches farther than 1e7 pixels from the picture's origin.
-  explicit SheetedLayer(const Layer& layer);
+  /// Keeps a reference to the layer.
+  explicit SheetedLayer(const Layer& layer, Unpaintable unpaintable = Unpaintable::refuse);
 
   const Layer& layer() const { return layer_; }
   const QuadMesh& mesh() const { return layer_.patches.mesh; }
@@ -20,6 +25,8 @@ class SheetedLayer {
   const BicubicBezier<Color>& color(int quad) const { return color_[quad]; }
   /// True when anything of the patch can be seen.
   bool is_drawn(int quad) const { return sheet_[quad] >= 0; }
+  /// Per patch; position() and color() of others must not be used.
+  const std::vector<char>& paintable() const { return paintable_; }
   bool is_empty() const { return sheet_count_ == 0; }
 
   /// Patches that a tear separates lie on different sheets, each of which has a texture of its own:
@@ -43,7 +50,7 @@ class SheetedLayer {
   PlaneCurve edge_curve(int e) const;
 
  private:
-  void find_patches();
+  void find_patches(Unpaintable unpaintable);
   void color_sheets();
   void widen_sheets();
   void join_corners();
@@ -52,6 +59,7 @@ class SheetedLayer {
   const Layer& layer_;
   std::vector<BicubicBezier<Eigen::Vector2d>> position_;  // #Q
   std::vector<BicubicBezier<Color>> color_;               // #Q
+  std::vector<char> paintable_;                           // #Q
   std::vector<int> sheet_;                                // #Q
   std::vector<int> shared_corner_;                        // #H
   int sheet_count_ = 0;

@@ -66,27 +66,30 @@ class Outliner {
     return loop;
   }
 
-  /// True when only cells that are painted later lie within the loop.
+  /// True when only cells that are painted later lie within the loop, and not too many.
   bool is_filled_hole(const std::vector<int>& loop) const {
     double area = 0;
-    std::vector<int> found;
-    const auto visit = [&](int cell) {
-      if (std::find(found.begin(), found.end(), cell) == found.end()) found.push_back(cell);
-    };
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Vector2d a = start(loop[i]), b = start(loop[(i + 1) % loop.size()]);
       area += a.x() * b.y() - a.y() * b.x();
-      const int twin = mesh_.side(loop[i]).twin;
-      if (twin < 0) return false;
-      visit(mesh_.side(twin).cell);
     }
     if (area >= 0) return false;
+    std::vector<int> found;
+    const auto cross = [&](int s) {
+      const int twin = mesh_.side(s).twin;
+      if (twin < 0) return false;
+      const int cell = mesh_.side(twin).cell;
+      const bool is_known =
+          group_.holds(cell) || std::find(found.begin(), found.end(), cell) != found.end();
+      if (is_known) return true;
+      if (found.size() == kMostHoleCells || !group_.is_later(cell)) return false;
+      found.push_back(cell);
+      return true;
+    };
+    if (!std::all_of(loop.begin(), loop.end(), cross)) return false;
     for (std::size_t i = 0; i < found.size(); ++i) {
-      if (i > kMostHoleCells || !group_.is_later(found[i])) return false;
       for (int s = mesh_.side_begin(found[i]); s < mesh_.side_begin(found[i] + 1); ++s) {
-        const int twin = mesh_.side(s).twin;
-        if (twin < 0) return false;
-        if (!group_.holds(mesh_.side(twin).cell)) visit(mesh_.side(twin).cell);
+        if (!cross(s)) return false;
       }
     }
     return true;
@@ -241,7 +244,7 @@ class Outliner {
     const bool is_clip = beyond(s) == CellMesh::Beyond::clip;
     double bleed = is_clip ? kClippedBleed * bleed_ : bleed_;
     const int q = mesh_.quad(side.cell), twin = layer_.mesh().twin(4 * q + side.k);
-    if (side.on_border && twin < 0) return outward(g, side, uv, bleed);
+    if (side.on_border && layer_.is_border(4 * q + side.k)) return outward(g, side, uv, bleed);
     Vector2d target = point;
     for (int halving = 0; halving < kMostHalvings; ++halving, bleed *= 0.5) {
       const auto [quad, at] = side.on_border ? across_border(side, uv, twin, bleed)

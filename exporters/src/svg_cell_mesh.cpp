@@ -192,10 +192,10 @@ void CellMesh::link_twins() {
 }
 
 CellMesh::Beyond CellMesh::beyond(int quad, int k) const {
-  const int h = 4 * quad + k, twin = layer_.mesh().twin(h);
+  const int h = 4 * quad + k;
   if (layer_.is_opaque(quad) && layer_.is_clipped(h)) return Beyond::clip;
   if (layer_.is_painted_later(h)) return Beyond::later;
-  const bool is_smooth = twin >= 0 && !layer_.mesh().is_tear(layer_.mesh().edge(h));
+  const bool is_smooth = !layer_.is_border(h) && !layer_.mesh().is_tear(layer_.mesh().edge(h));
   return is_smooth ? Beyond::seam : Beyond::nothing;
 }
 

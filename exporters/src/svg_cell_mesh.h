@@ -16,7 +16,8 @@ struct PatchCell {
 };
 
 /// The cells of some patches as a mesh: the sides of cells are divided where corners of others lie
-/// on them, so that each side has one cell on its other side.
+/// on them, so that each side has one cell on its other side. Curves and points are in pixels of
+/// the picture.
 class CellMesh {
  public:
   /// What lies across a side that has no twin.

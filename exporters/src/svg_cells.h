@@ -13,7 +13,7 @@ namespace quadrille {
 struct SvgCell {
   PatchCell part;
   CellSamples samples;
-  double cost = 0;  ///< squared error and price of the bytes
+  double cost = 0;  ///< squared error and price of the bytes, in the units of SvgDetail::price
 };
 
 /// What cells show: the colour itself, or alpha as gray for a mask.
@@ -27,8 +27,9 @@ std::vector<SvgCell> divide_into_cells(const SvgLayer& layer, int quad, CellPain
 /// The price of a byte for cells that show this.
 double price_of(const SvgDetail& detail, CellPaint paint);
 
-/// The fill of a cell or of several together, with their outlines, and what it costs; about the
-/// best fill where that costs less than `limit`.
+/// The fill of a cell or of several together, with their outlines, and what it costs, where a byte
+/// costs `price`; about the best fill where that costs less than `limit`. Errors and costs are in
+/// the units of SvgDetail::price; coordinates are multiples of 1 / units_per_pixel pixel.
 struct PricedFill {
   CellFill fill;
   double error = 0, cost = 0;

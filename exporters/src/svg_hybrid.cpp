@@ -82,7 +82,7 @@ std::vector<EdgeLoop> sheet_outline(const SheetedLayer& layer, int sheet) {
       is_next = is_next || other == sheet;
       is_next_to_earlier = is_next_to_earlier || (other >= 0 && other < sheet);
     }
-    inside[q] = is_next && !is_next_to_earlier;
+    inside[q] = is_next && !is_next_to_earlier && layer.paintable()[q];
   }
   return border_of(mesh, inside);
 }
@@ -106,7 +106,7 @@ class HybridSvgWriter {
 
  private:
   void write_layer(const Layer& source, const std::string& id) {
-    const SheetedLayer layer(source);
+    const SheetedLayer layer(source, Unpaintable::hide);
     std::vector<SheetTexture> textures;
     for (int sheet = 0; sheet < layer.sheet_count(); ++sheet) {
       context_.progress("write SVG",

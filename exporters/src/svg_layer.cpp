@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "paintable_patch.h"
 #include "quadrille/mesh_region.h"
 #include "subdivision.h"
 #include "svg_clip.h"
@@ -21,7 +22,8 @@ constexpr int kTileSize = 512;
 
 SvgLayer::SvgLayer(const Layer& layer, double tolerance, double width, double height)
     : layer_(layer),
-      opacity_(paint_opacities(layer, tolerance)),
+      paintable_(paintable_patches(layer)),
+      opacity_(paint_opacities(layer.patches, tolerance, paintable_)),
       region_(smooth_regions(layer.patches.mesh)) {
   const bool too_many = std::ranges::any_of(region_, [](int r) { return r >= kMostRegions; });
   if (too_many) std::ranges::fill(region_, 0);
@@ -32,7 +34,7 @@ SvgLayer::SvgLayer(const Layer& layer, double tolerance, double width, double he
 void SvgLayer::number_parts(double width, double height) {
   std::vector<char> painted(mesh().quad_count());
   for (int q = 0; q < mesh().quad_count(); ++q) painted[q] = is_opaque(q);
-  parts_ = paint_groups(mesh(), painted);
+  parts_ = paint_groups(mesh(), painted, paintable_);
   parts_.open_border = fills_picture(layer_, width, height);
   std::map<std::pair<int, int>, int> numbers;
   for (int q = 0; q < mesh().quad_count(); ++q) {

@@ -10,7 +10,7 @@ namespace quadrille {
 
 /// A layer in the picture's coordinates, with the order in which its patches are painted: the
 /// translucent ones first, so that they can reach under the opaque ones, both region by region; the
-/// transparent ones, and those with coordinates or colours that are not finite, never. The opaque
+/// transparent ones, and those that is_paintable() refuses, never. The opaque
 /// ones of a region are painted part by part, so that the patches along the two sides of a tear are
 /// in different parts: those painted later are clipped there, as all are at the outline.
 class SvgLayer {
@@ -23,6 +23,10 @@ class SvgLayer {
   const QuadMesh& mesh() const { return layer_.patches.mesh; }
   BicubicHermite<Eigen::Vector2d> geometry(int quad) const;
   BicubicHermite<Color> color(int quad) const;
+  /// True when half-edge h is on the border of the mesh or of a patch that cannot be painted.
+  bool is_border(int h) const {
+    return mesh().twin(h) < 0 || !paintable_[QuadMesh::quad_of(mesh().twin(h))];
+  }
   /// True when the patch on the other side of half-edge h is painted after the one of h.
   bool is_painted_later(int h) const;
   /// True when `other` is painted after `quad`.
@@ -51,6 +55,7 @@ class SvgLayer {
   }
 
   const Layer& layer_;
+  std::vector<char> paintable_;
   std::vector<PatchOpacity> opacity_;
   std::vector<int> region_;
   PaintGroups parts_;      ///< of the opaque quads

@@ -108,9 +108,10 @@ TEST(GridDecomposition, RingsOfADiscAreCutOpen) {
 TEST(GridDecomposition, CanBeCancelled) {
   const QuadMesh mesh = testing::lattice(60, 60, 60, 60);
   const std::vector<unsigned char> kinds(mesh.quad_count(), 1);
-  RunContext context;
-  context.on_progress = [](const std::string&, double fraction) { return fraction <= 0; };
-  EXPECT_THROW(regular_grids(mesh, kinds, context), Error);
+  const auto cancel = [](double part) {
+    if (part > 0) throw Error(ErrorCode::cancelled, "cancelled");
+  };
+  EXPECT_THROW(regular_grids(mesh, kinds, cancel), Error);
 }
 
 TEST(GridDecomposition, KindsAreKeptApart) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -211,6 +212,22 @@ TEST(InkscapeSvg, IsALevelOfSvgFiles) {
   write_svg(image, path, options);
   std::ifstream file(path);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), svg_of(image, "level"));
+}
+
+TEST(InkscapeSvg, ProgressOnlyGrowsOverAllLayers) {
+  VectorImage image = linear_picture(40, 30);
+  image.layers.push_back(linear_picture(20, 20).layers[0]);
+  std::vector<double> told;
+  RunContext context;
+  context.on_progress = [&](const std::string&, double fraction) {
+    told.push_back(fraction);
+    return true;
+  };
+  std::ostringstream out;
+  write_inkscape_svg(out, image, "", context);
+  EXPECT_GT(told.size(), 4u);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1);
 }
 
 TEST(InkscapeSvg, CanBeCancelled) {

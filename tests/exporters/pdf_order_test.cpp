@@ -56,6 +56,28 @@ TEST(PaintGroups, ARegionEndsAtATearThoughThePatchBeyondLiesSmoothlyBesideTheGro
   EXPECT_TRUE(std::any_of(region.begin(), region.end(), has_tear));
 }
 
+TEST(PaintGroups, RegionsNeverGoAroundPatchesThatCannotBePainted) {
+  constexpr int kQuads = 48;
+  for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {
+    const QuadMesh mesh = torn_lattice(8, 6, seed);
+    testing::Random random(seed);
+    std::vector<char> painted(kQuads), paintable(kQuads);
+    for (int q = 0; q < kQuads; ++q) {
+      paintable[q] = random.uniform() < 0.8;
+      painted[q] = paintable[q] && random.uniform() < 0.8;
+    }
+    PaintGroups groups = paint_groups(mesh, painted, paintable);
+    for (const bool open : {true, false}) {
+      groups.open_border = groups.open_unpainted = open;
+      for (int g = 0; g < groups.count; ++g) {
+        for (const EdgeLoop& loop : group_region(mesh, groups, g)) {
+          for (const int h : loop) EXPECT_TRUE(paintable[QuadMesh::quad_of(h)]);
+        }
+      }
+    }
+  }
+}
+
 TEST(PaintGroups, BordersCloseAroundAnySetOfQuads) {
   const QuadMesh mesh = testing::lattice(7, 5, 7, 5);
   testing::Random random(3);

@@ -9,8 +9,10 @@
 #include <limits>
 #include <vector>
 
+#include "paintable_patch.h"
 #include "patch_opacity.h"
 #include "pdf_layer.h"
+#include "support/programs.h"
 #include "support/random_patches.h"
 
 namespace quadrille {
@@ -78,7 +80,7 @@ std::vector<ReadPatch> patches_in(const Bytes& data, const CoordinateGrid& grid)
 }
 
 struct Painted {
-  ScratchFile scratch;
+  ScratchFile scratch{test::scratch_dir() / "painted.pdf"};
   PaintedLayer layer;
 
   Painted(const Layer& drawn, double tolerance)
@@ -181,7 +183,8 @@ TEST(PdfShading, WhatIsNotFiniteOrTooFarIsNotPainted) {
     patches.mesh.vertices[12] = Vector2d(far, far);
     const VectorImage image = testing::single_layer(std::move(patches), kSize, kSize);
     const Layer& layer = image.layers[0];
-    const std::vector<PatchOpacity> opacity = paint_opacities(layer, 0.01);
+    const std::vector<PatchOpacity> opacity =
+        paint_opacities(layer.patches, 0.01, paintable_patches(layer));
     EXPECT_EQ(std::ranges::count(opacity, PatchOpacity::transparent), 4);
     Painted painted(layer, 2);
     EXPECT_LE(painted.layer.grid.largest(0), 1e4);

@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 
 #include "quadrille/error.h"
@@ -237,6 +239,13 @@ TEST_F(Pdf, HostileMeshesAreSound) {
   }
 }
 
+TEST_F(Pdf, TheUnderlayOfAThinLayerHasAPixelPerPatch) {
+  PatchMesh patches = straight_patches(testing::lattice(4, 1, 9e6, 1e-12));
+  testing::set_linear_colors(patches, Color(0.2f, 0.3f, 0.4f, 1));
+  save(testing::single_layer(std::move(patches), kWidth, kHeight), output("thin.pdf"));
+  EXPECT_THAT(bytes_of(output("thin.pdf")), HasSubstr("/Width 4 "));
+}
+
 TEST_F(Pdf, AHundredThousandQuads) {
   PatchMesh patches = straight_patches(testing::lattice(400, 250, 1600, 1000));
   testing::set_linear_colors(patches, Color(0.2f, 0.3f, 0.4f, 1), Color(2e-4f, 0, 0, 0));
@@ -248,7 +257,6 @@ TEST_F(Pdf, AHundredThousandQuads) {
 
 TEST_F(Pdf, CancellingLeavesNoFile) {
   RunContext context;
-  context.on_progress = [](const std::string&, double) { return false; };
   for (const double until : {0.0, 0.5, 0.96}) {
     context.on_progress = [&](const std::string&, double part) { return part < until; };
     EXPECT_THROW(save(random_picture(), output("cancelled.pdf"), {}, context), Error) << until;
@@ -258,6 +266,50 @@ TEST_F(Pdf, CancellingLeavesNoFile) {
   for (const char* name : {"cancelled.pdf", "cancelled.ps"}) {
     EXPECT_THROW(export_image(random_picture(), output(name), {}, context), Error);
     EXPECT_FALSE(fs::exists(output(name)));
+  }
+}
+
+/// While it lives, files of this process cannot grow beyond some bytes.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST_F(Pdf, AFullDiskUnderTheTemporaryFileIsNamed) {
+  // The data of one quad are still in memory when the file is put together, those of many are not.
+  for (const int columns : {1, 60}) {
+    for (const char* name : {"full.pdf", "full.ps"}) {
+      const VectorImage image = random_picture(true, columns, columns);
+      std::string message;
+      {
+        const FileSizeLimit nothing(0);
+        try {
+          export_image(image, output(name));
+        } catch (const Error& error) {
+          EXPECT_EQ(error.code(), ErrorCode::io_failure);
+          message = error.what();
+        }
+      }
+      EXPECT_THAT(message, HasSubstr("a temporary file in '" +
+                                     fs::weakly_canonical(test::scratch_dir()).string() +
+                                     "' cannot be written"));
+      EXPECT_FALSE(fs::exists(output(name)));
+    }
   }
 }
 

@@ -131,6 +131,27 @@ TEST(SvgMerge, HolesThatLaterCellsFillAreLeftOut) {
   }
 }
 
+TEST(SvgMerge, HolesOfMoreThan64CellsAreKept) {
+  constexpr int kColumns = 15, kRows = 10;
+  const VectorImage image =
+      testing::single_layer(straight_lattice(kColumns, kRows), kWidth, kHeight);
+  const SvgLayer layer(image.layers[0], 0.01, kWidth, kHeight);
+  std::vector<PatchCell> cells;
+  for (int q = 0; q < kColumns * kRows; ++q) cells.push_back({q, {}});
+  const CellMesh mesh(layer, cells);
+  for (const auto& [columns, rows] : {std::pair{8, 8}, {13, 5}}) {
+    const auto is_hole = [columns = columns, rows = rows](int c) {
+      const int x = c % kColumns, y = c / kColumns;
+      return x > 0 && y > 0 && x <= columns && y <= rows;
+    };
+    CellGroup ring{{}, [&](int c) { return !is_hole(c); }, is_hole};
+    for (int c = 0; c < mesh.cell_count(); ++c) {
+      if (!is_hole(c)) ring.cells.push_back(c);
+    }
+    EXPECT_EQ(group_outlines(mesh, ring, 1).size(), columns * rows <= 64 ? 1u : 2u);
+  }
+}
+
 TEST(SvgMerge, NothingMergesAcrossATear) {
   PatchMesh patches = straight_lattice(6, 4, true);
   testing::set_linear_colors(patches, Color(0.2f, 0.6f, 0.4f, 1));

@@ -1,13 +1,17 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <sstream>
 
 #include "quadrille/error.h"
 #include "quadrille/export.h"
 #include "support/programs.h"
 #include "support/random_patches.h"
+#include "support/torn_meshes.h"
 
 namespace quadrille {
 namespace {
@@ -17,9 +21,10 @@ namespace fs = std::filesystem;
 fs::path output(const std::string& name) { return test::scratch_dir() / name; }
 
 /// Writes the picture; the file must be XML that librsvg draws, without any number that is none.
-void expect_readable(const VectorImage& image, const std::string& name) {
+void expect_readable(const VectorImage& image, const std::string& name,
+                     const SvgOptions& options = {}) {
   const fs::path svg = output(name + ".svg"), png = output(name + ".png");
-  write_svg(image, svg);
+  write_svg(image, svg, options);
   std::ifstream file(svg, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   for (const char* word : {"nan", "inf"}) {
@@ -82,6 +87,63 @@ TEST(SvgRobustness, NumbersThatAreNone) {
     patches.wedges[12].value[1] = static_cast<float>(bad);
     expect_readable(picture(std::move(patches)), "none");
   }
+}
+
+/// Torn from top to bottom.
+PatchMesh torn(bool opaque) {
+  testing::SplitMesh split = testing::split_mesh(8, 6, 80, 60, 30, 50);
+  testing::tear(split.mesh, split.line);
+  PatchMesh patches = straight_patches(std::move(split.mesh));
+  testing::set_random_colors(patches, 4, opaque);
+  patches.opaque = opaque;
+  return patches;
+}
+
+/// The largest coordinate in each file's paths, gradients and pictures.
+std::vector<double> largest_coordinates(const std::vector<fs::path>& files) {
+  std::vector<std::string> command = {
+      "python3", "-c",
+      "import re, sys, xml.etree.ElementTree as t\n"
+      "names = {'d', 'x', 'y', 'width', 'height', 'x1', 'x2', 'y1', 'y2', 'cx',\n"
+      "         'cy', 'r', 'gradientTransform', 'path'}\n"
+      "for file in sys.argv[1:]:\n"
+      "  print(max(abs(float(n)) for e in t.parse(file).getroot().iter()\n"
+      "            for key, text in e.attrib.items() if key in names\n"
+      "            for n in re.findall(r'-?\\d*\\.?\\d+(?:e[-+]?\\d+)?', text)))\n"};
+  command.insert(command.end(), files.begin(), files.end());
+  std::string said;
+  EXPECT_EQ(test::run(command, &said), 0) << said;
+  std::istringstream lines(said);
+  return {std::istream_iterator<double>(lines), {}};
+}
+
+TEST(SvgRobustness, PatchesThatCannotBePaintedAreLeftOutAtTears) {
+  constexpr int kRow = 9;  // vertices
+  // On the tear and beside it, inside and at the border.
+  const int corners[] = {4 + 3 * kRow, 5 + 3 * kRow, 3 + 2 * kRow, 4, 5};
+  std::vector<fs::path> files;
+  for (const double far : {std::nan(""), -1e9}) {
+    for (const bool opaque : {true, false}) {
+      for (const int corner : corners) {
+        PatchMesh patches = torn(opaque);
+        patches.mesh.vertices[corner] = Eigen::Vector2d(far, far);
+        const VectorImage image = picture(std::move(patches));
+        for (const SvgLevel level : {SvgLevel::compact, SvgLevel::hybrid, SvgLevel::inkscape}) {
+          files.push_back(output("far-" + std::to_string(files.size()) + ".svg"));
+          write_svg(image, files.back(), {.level = level});
+        }
+      }
+    }
+  }
+  const std::vector<double> largest = largest_coordinates(files);
+  ASSERT_EQ(largest.size(), files.size());
+  for (std::size_t i = 0; i < files.size(); ++i) EXPECT_LT(largest[i], 10000) << files[i];
+}
+
+TEST(SvgRobustness, HybridFilesLeaveOutColorsThatAreNone) {
+  PatchMesh patches = torn(true);
+  patches.wedges[patches.wedge_of_corner[4 * 20]].value[1] = std::nanf("");
+  expect_readable(picture(std::move(patches)), "hybrid", {.level = SvgLevel::hybrid});
 }
 
 TEST(SvgRobustness, OneQuadAndNothingToSee) {
