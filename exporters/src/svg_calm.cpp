@@ -1,12 +1,14 @@
 #include "svg_calm.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace quadrille {
 namespace {
+
+/// In 8-bit steps, of photographs; its power gives the weight, within bounds.
+constexpr double kUsualBend = 6, kExponent = 0.7, kLeastWeight = 0.83, kMostWeight = 4;
 
 /// Root mean square of what the best linear function of both parameters leaves of a patch's colour,
 /// in 8-bit steps.
@@ -35,14 +37,16 @@ double bend(const BicubicHermite<Color>& color) {
 
 }  // namespace
 
-double banding_weight(const SvgLayer& layer, const std::vector<int>& quads) {
-  static const double B0 = getenv("B0") ? atof(getenv("B0")) : 2, BP = getenv("BP") ? atof(getenv("BP")) : 0,
-                      BM = getenv("BM") ? atof(getenv("BM")) : 4, BL = getenv("BL") ? atof(getenv("BL")) : 1;
+double banding_weight(const SvgLayer& layer) {
   double sum = 0;
-  for (const int q : quads) sum += bend(layer.color(q));
-  const double mean = sum / std::max<std::size_t>(1, quads.size());
-  if (getenv("BV")) fprintf(stderr, "bend %.3f of %d\n", mean, (int)quads.size());
-  return std::clamp(std::pow(B0 / std::max(mean, 1e-6), BP), BL, BM);
+  int count = 0;
+  for (int q = 0; q < layer.mesh().quad_count(); ++q) {
+    if (layer.opacity(q) == PatchOpacity::transparent) continue;
+    sum += bend(layer.color(q));
+    ++count;
+  }
+  if (count == 0) return 1;
+  return std::clamp(std::pow(kUsualBend * count / sum, kExponent), kLeastWeight, kMostWeight);
 }
 
 }  // namespace quadrille
