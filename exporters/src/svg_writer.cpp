@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "arena_size.h"
+#include "svg_calm.h"
 #include "svg_cell_writer.h"
 #include "svg_clip.h"
 #include "svg_layer.h"
@@ -36,6 +37,7 @@ class SvgWriter {
  private:
   void write_layer(const Layer& source) {
     const SvgLayer layer(source, kAlphaTolerance, image_.width, image_.height);
+    layer_detail_ = {detail_.price / banding_weight(layer), detail_.units_per_pixel};
     const std::string id = "layer-" + std::to_string(++layer_count_);
     out_ << "<g id=\"" << id << "\">\n";
     const std::vector<int> translucent = layer.quads(PatchOpacity::translucent);
@@ -107,7 +109,7 @@ class SvgWriter {
       const auto end = std::find_if(begin, quads.end(),
                                     [&](int q) { return layer.tile(q) != layer.tile(*begin); });
       const std::vector<SvgPaint> paints = arena_.execute([&] {
-        return paint_patches(layer, {begin, end}, paint, detail_);
+        return paint_patches(layer, {begin, end}, paint, layer_detail_);
       });
       for (const SvgPaint& one : paints) cells_.add(one.outlines, one.fill);
       if (paint == CellPaint::color) painted_ += static_cast<int>(end - begin);
@@ -119,6 +121,7 @@ class SvgWriter {
 
   const VectorImage& image_;
   const SvgDetail& detail_;
+  SvgDetail layer_detail_ = {};
   const RunContext& context_;
   std::ostream& out_;
   SvgCellWriter cells_;

@@ -91,10 +91,16 @@ FitReport correct_by_least_squares(PatchMesh& patches, const Raster& picture,
 void limit_overshoot(PatchMesh& patches, const Raster& picture, const FitOptions& options,
                      const RunContext& context, FitReport& report) {
   if (std::isinf(options.max_overshoot)) return;
+  RunContext quiet;  // the fit's own progress is complete
+  quiet.threads = context.threads;
+  quiet.on_progress = [&](const std::string&, double) {
+    context.progress("fit", 1);
+    return true;
+  };
   Overshoot overshoot;
   for (int round = 0; round < kOvershootRounds; ++round) {
     if (!overshoot.find(patches, picture, options.max_overshoot)) return;
-    const FitReport again = correct_by_least_squares(patches, picture, options, context, overshoot);
+    const FitReport again = correct_by_least_squares(patches, picture, options, quiet, overshoot);
     report = {report.iterations + again.iterations, again.residual};
   }
 }

@@ -14,11 +14,14 @@ namespace quadrille {
 FittedState::FittedState(PatchMesh start, const Raster& picture, const FitOptions& fit_options,
                          const RunContext& context)
     : patches(std::move(start)), colors(patches, picture, fit_options, context, &samples) {
-  show(picture, solve(fit_options, context));
+  correction_.assign(patches.wedges.size(), WedgeUnknowns::Zero());
+  improve(picture, fit_options, context);
 }
 
-void FittedState::improve(const FitOptions& options, const RunContext& context) {
+void FittedState::improve(const Raster& picture, const FitOptions& options,
+                          const RunContext& context) {
   solve(options, context);
+  show(picture);
 }
 
 float FittedState::squared_error_at(const Raster& picture, std::size_t pixel) const {
@@ -32,13 +35,14 @@ float FittedState::squared_error_at(const Raster& picture, std::size_t pixel) co
 }
 
 /// The solver leaves the rest of the right-hand side in the system, for the next correction.
-ColorSystem::Vector FittedState::solve(const FitOptions& options, const RunContext& context) {
-  ColorSystem::Vector correction = quadrille::solve(colors, options, context, fit);
-  add_correction(correction, patches.wedges);
-  return correction;
+void FittedState::solve(const FitOptions& options, const RunContext& context) {
+  const ColorSystem::Vector step = quadrille::solve(colors, options, context, fit);
+  add_correction(step, patches.wedges);
+  for (std::size_t w = 0; w < step.size(); ++w) correction_[w] += step[w];
 }
 
-void FittedState::show(const Raster& picture, const ColorSystem::Vector& correction) {
+void FittedState::show(const Raster& picture) {
+  squared_error = roughness = 0;
   mean = picture;
   if (picture.has_alpha()) {
     // Where no patch lies the picture stands for it.
@@ -56,7 +60,7 @@ void FittedState::show(const Raster& picture, const ColorSystem::Vector& correct
   for (const double e : errors) squared_error += e;
   const std::vector<std::size_t>& mixed = colors.mixed_pixels().pixels();
   for (std::size_t row = 0; row < colors.rows().size(); ++row) {
-    const Eigen::Vector4f rest = colors.rows().rest(row, correction);
+    const Eigen::Vector4f rest = colors.rows().rest(row, correction_);
     if (row >= mixed.size()) {
       roughness += static_cast<double>(rest.squaredNorm());
       continue;

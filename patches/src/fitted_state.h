@@ -26,12 +26,14 @@ class FittedState {
   /// The share of pixel y * width + x in the squared error, 0 where no patch lies.
   float squared_error_at(const Raster& picture, std::size_t pixel) const;
 
-  /// Goes on from the colours found so far; the mean and the errors stay behind.
-  void improve(const FitOptions& options, const RunContext& context);
+  /// Goes on from the colours found so far.
+  void improve(const Raster& picture, const FitOptions& options, const RunContext& context);
 
  private:
-  ColorSystem::Vector solve(const FitOptions& options, const RunContext& context);
-  void show(const Raster& picture, const ColorSystem::Vector& correction);
+  ColorSystem::Vector correction_;  ///< of the colours that the system was made with
+
+  void solve(const FitOptions& options, const RunContext& context);
+  void show(const Raster& picture);
   double show_patch(const SampleBlock& block, int local);
 };
 

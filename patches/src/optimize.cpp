@@ -102,19 +102,17 @@ OptimizeReport take_rounds(PatchMesh& patches, const Raster& picture,
     if (round.accepted) {
       system.reset();
       state = std::move(next);
-      round.mse = report.mse_after = state->squared_error / values;
+      round.mse = state->squared_error / values;
       ++report.accepted;
     }
     damping *= round.accepted ? kDampingOnSuccess : kDampingOnFailure;
     report.rounds.push_back(round);
   }
   if (report.accepted == 0) return report;
-  state->improve(draft_options(fit), inner);
+  state->improve(picture, draft_options(fit), inner);
+  report.mse_after = state->squared_error / values;
   report.fit = state->fit;
   patches = std::move(state->patches);
-  FitOptions last = draft_options(fit);
-  last.max_overshoot = fit.max_overshoot;
-  limit_overshoot(patches, picture, last, inner, report.fit);
   return report;
 }
 
@@ -147,7 +145,20 @@ OptimizeReport optimize_vertices(PatchMesh& patches, const Raster& picture,
   if (options.rounds == 0 || fit.method == FitMethod::bessel) return report;
   check_shapes(patches.mesh);
   tbb::task_arena arena(arena_size(context));
-  arena.execute([&] { report = take_rounds(patches, picture, options, fit, context); });
+  arena.execute([&] {
+    report = take_rounds(patches, picture, options, fit, context);
+    if (report.accepted > 0 && fit.method == FitMethod::hermite) {
+      FitOptions last = draft_options(fit);
+      last.max_overshoot = fit.max_overshoot;
+      RunContext end;
+      end.threads = context.threads;
+      end.on_progress = [&](const std::string&, double) {
+        context.progress("vertices", 1);
+        return true;
+      };
+      limit_overshoot(patches, picture, last, end, report.fit);
+    }
+  });
   if (report.accepted > 0 && fit.method != FitMethod::hermite) {
     report.fit = fit_colors(patches, picture, fit, context);
   }

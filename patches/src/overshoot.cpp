@@ -14,6 +14,11 @@ namespace {
 
 constexpr double kReach = 1;     // pixels around a patch that may show its colours
 constexpr int kPlacesAlong = 5;  // of either parameter
+constexpr double kRounding = 1e-6;
+
+Eigen::Vector2d parameters_of(int number) {
+  return Eigen::Vector2d(number % kPlacesAlong, number / kPlacesAlong) / (kPlacesAlong - 1);
+}
 
 struct ColorRange {
   Eigen::Array4d least = Eigen::Array4d::Constant(INFINITY);
@@ -49,22 +54,24 @@ void Overshoot::find_in_patch(const PatchMesh& patches, int q, const Raster& pic
                               double allowed, std::vector<Place>& places) {
   const FergusonPatch patch = ferguson_patch(patches, q);
   ColorRange range = colors_around(patch.position.value, picture);
-  range.least -= allowed;
-  range.most += allowed;
-  for (int j = 0; j < kPlacesAlong; ++j) {
-    for (int i = 0; i < kPlacesAlong; ++i) {
-      const Eigen::Vector2d uv(i / (kPlacesAlong - 1.0), j / (kPlacesAlong - 1.0));
-      const Eigen::Array4d color = patch.color.at(uv.x(), uv.y()).cast<double>();
-      if (is_within(range, color)) continue;
-      // Beyond the outermost pixel centres the picture goes on as a line.
-      const Eigen::Array4d here = sample_bilinear(picture, patch.position.at(uv.x(), uv.y()));
-      const ColorRange wider = {range.least.min(here - allowed), range.most.max(here + allowed)};
-      if (!is_within(wider, color)) places.push_back({q, uv, wider.least, wider.most});
-    }
+  range.least -= allowed + kRounding;
+  range.most += allowed + kRounding;
+  for (int number = 0; number < kPlacesAlong * kPlacesAlong; ++number) {
+    const Eigen::Vector2d uv = parameters_of(number);
+    const Eigen::Array4d color = patch.color.at(uv.x(), uv.y()).cast<double>();
+    if (is_within(range, color) || (is_found_[q] >> number & 1)) continue;
+    // Beyond the outermost pixel centres the picture goes on as a line.
+    const Eigen::Array4d here = sample_bilinear(picture, patch.position.at(uv.x(), uv.y()));
+    const ColorRange wider = {range.least.min(here - allowed), range.most.max(here + allowed)};
+    if (is_within(wider, color)) continue;
+    places.push_back({q, number, wider.least, wider.most});
+    is_found_[q] |= std::uint32_t{1} << number;
   }
 }
 
 bool Overshoot::find(const PatchMesh& patches, const Raster& picture, double allowed) {
+  static_assert(kPlacesAlong * kPlacesAlong <= 32);
+  is_found_.resize(patches.patch_count());
   const std::size_t before = places_.size();
   std::vector<std::vector<Place>> found((patches.patch_count() + kRangeSize - 1) / kRangeSize);
   for_each_range(patches.patch_count(), [&](int begin, int end) {
@@ -79,14 +86,14 @@ bool Overshoot::find(const PatchMesh& patches, const Raster& picture, double all
 void Overshoot::add_equations(const PatchMesh& patches, WedgeRows& rows) const {
   for (const Place& place : places_) {
     const int q = place.patch;
-    const auto factors = corner_factors(corner_maps(patches, q), place.uv);
+    const Eigen::Vector2d uv = parameters_of(place.number);
+    const auto factors = corner_factors(corner_maps(patches, q), uv);
     std::array<WedgeRows::Entry, 4> entries;
     for (int k = 0; k < 4; ++k) {
       entries[k] = {patches.wedge_of_corner[4 * q + k], factors[k]};
     }
     std::ranges::sort(entries, {}, &WedgeRows::Entry::wedge);
-    const Eigen::Array4d shown =
-        ferguson_patch(patches, q).color.at(place.uv.x(), place.uv.y()).cast<double>();
+    const Eigen::Array4d shown = ferguson_patch(patches, q).color.at(uv.x(), uv.y()).cast<double>();
     rows.add(entries, patches, shown.max(place.least).min(place.most));
   }
 }

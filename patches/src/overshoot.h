@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "quadrille/patch_mesh.h"
@@ -13,8 +14,9 @@ namespace quadrille {
 /// enlarged.
 class Overshoot {
  public:
-  /// Adds the places where a channel lies more than `allowed` outside the range that it has in the
-  /// pixels around the patch. Returns whether there are any. Runs in the caller's tbb arena.
+  /// Looks at 5 x 5 places of each patch and adds those where a premultiplied channel or alpha lies
+  /// more than `allowed` outside the range that it has in the patch's box and one pixel around it.
+  /// Returns whether there are new ones. Runs in the caller's tbb arena.
   bool find(const PatchMesh& patches, const Raster& picture, double allowed);
 
   /// Equations for all places found, each of which weighs like a pixel: the colour that the patches
@@ -23,14 +25,14 @@ class Overshoot {
 
  private:
   struct Place {
-    int patch;
-    Eigen::Vector2d uv;
+    int patch, number;  ///< of the places of a patch
     Eigen::Array4d least, most;
   };
   std::vector<Place> places_;
+  std::vector<std::uint32_t> is_found_;  ///< per patch, a bit for each of its places
 
-  static void find_in_patch(const PatchMesh& patches, int q, const Raster& picture, double allowed,
-                            std::vector<Place>& places);
+  void find_in_patch(const PatchMesh& patches, int q, const Raster& picture, double allowed,
+                     std::vector<Place>& places);
 };
 
 }  // namespace quadrille

@@ -26,10 +26,12 @@ struct FitOptions {
   /// patches that have few of them, which shows when the picture is enlarged: enough that they do
   /// not ring, little enough that they still pass through the pixels.
   double smoothness = 0.2;
-  /// How far a channel may leave the range that it has in the pixels around a patch, on the sRGB
-  /// scale of 1; not negative, infinite for no bound. Where the fit goes farther it is made again
-  /// with equations against it, twice, which leaves little. Drawings look better enlarged; in
-  /// photographs highlights between the pixels are as likely as not.
+  /// How far a premultiplied channel or alpha should leave at most the range that it has in the
+  /// pixels of a patch's bounding box and one pixel around it, on the sRGB scale of 1; not
+  /// negative, infinite for no bound. Where the fit goes farther, at 5 x 5 places of a patch, it is
+  /// made again with an equation of a pixel's weight against each, twice, which leaves a fraction
+  /// of the excess. Drawings look better enlarged; in photographs highlights between the pixels are
+  /// as likely as not. Bessel colours (FitMethod::bessel) are not bound.
   double max_overshoot = std::numeric_limits<double>::infinity();
   /// The conjugate gradients start at the Bessel solution and stop when its residual has fallen by
   /// this factor; in (0, 1).
@@ -45,8 +47,8 @@ void check_options(const FitOptions& options);
 FitOptions draft_options(FitOptions options);
 
 struct FitReport {
-  int iterations = 0;   ///< of the conjugate gradients; 0 for bessel
-  double residual = 0;  ///< relative, at the end
+  int iterations = 0;   ///< of the conjugate gradients in all fits; 0 for bessel
+  double residual = 0;  ///< relative, at the end of the last fit
 };
 
 /// Estimates the colours of every wedge so that the patches reproduce the picture: hermite and

@@ -33,7 +33,8 @@ struct OptimizeReport {
   std::vector<OptimizeRound> rounds;
   int accepted = 0;
   /// Mean squared error of the unclamped colours at the pixel centres over pixels and channels,
-  /// sRGB in [0, 1], alpha premultiplied; 0 when no round was taken.
+  /// sRGB in [0, 1], alpha premultiplied; 0 when no round was taken. Afterwards as the
+  /// least-squares fit leaves it, before a bound on overshoot.
   double mse_before = 0, mse_after = 0;
   FitReport fit;  ///< of the colours at last; when no step was accepted they stay
 };
