@@ -1,43 +1,29 @@
 #include "pdf_scratch.h"
 
-#include <fcntl.h>
-#include <stdlib.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <string>
+#include <system_error>
 
+#include "quadrille/atomic_file.h"
 #include "quadrille/error.h"
 
 namespace quadrille {
 namespace {
 
-int open_nameless(const std::filesystem::path& folder) {
-#ifdef O_TMPFILE
-  const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (file >= 0) return file;
-#endif
-  // Not every file system knows files without names.
-  std::string name = folder / ".quadrille-XXXXXX";
-  const int named = ::mkstemp(name.data());
-  if (named >= 0) ::unlink(name.c_str());
-  return named;
-}
-
-std::FILE* open_scratch(const std::filesystem::path& folder) {
-  const int file = open_nameless(folder);
-  if (file < 0) return nullptr;
-  std::FILE* const stream = ::fdopen(file, "w+b");
-  if (!stream) ::close(file);
-  return stream;
+std::FILE* open_scratch(const std::filesystem::path& target) {
+  const std::filesystem::path name = temporary_beside(target);
+  std::FILE* const file = std::fopen(name.c_str(), "w+bx");
+  std::error_code ignored;
+  if (file) std::filesystem::remove(name, ignored);  // the open file stays
+  return file;
 }
 
 }  // namespace
 
 ScratchFile::ScratchFile(const std::filesystem::path& target)
     : folder_(std::filesystem::weakly_canonical(std::filesystem::absolute(target)).parent_path()),
-      file_(open_scratch(folder_)) {
+      file_(open_scratch(folder_ / target.filename())) {
   if (!file_) fail("made");
 }
 

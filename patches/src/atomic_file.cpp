@@ -45,16 +45,6 @@ void check_writable(const fs::path& target) {
   }
 }
 
-/// Unique among processes by the process id and among threads by the counter. The original ending
-/// stays last, since many writers choose the format by it.
-fs::path temporary_beside(const fs::path& target) {
-  static std::atomic<unsigned> counter{0};
-  std::string name = ".quadrille-";
-  name += std::to_string(::getpid()) + '-' + std::to_string(counter++);
-  name += target.extension().string();
-  return folder_of(target) / name;
-}
-
 class RemovedUnlessKept {
  public:
   explicit RemovedUnlessKept(const fs::path& path) : path_(path) {}
@@ -72,6 +62,15 @@ class RemovedUnlessKept {
 };
 
 }  // namespace
+
+/// Unique among processes by the process id and among threads by the counter.
+fs::path temporary_beside(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  std::string name = ".quadrille-";
+  name += std::to_string(::getpid()) + '-' + std::to_string(counter++);
+  name += target.extension().string();
+  return folder_of(target) / name;
+}
 
 void write_atomically(const fs::path& named,
                       const std::function<void(const fs::path& temporary)>& write) {

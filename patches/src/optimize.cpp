@@ -150,13 +150,8 @@ OptimizeReport optimize_vertices(PatchMesh& patches, const Raster& picture,
     if (report.accepted > 0 && fit.method == FitMethod::hermite) {
       FitOptions last = draft_options(fit);
       last.max_overshoot = fit.max_overshoot;
-      RunContext end;
-      end.threads = context.threads;
-      end.on_progress = [&](const std::string&, double) {
-        context.progress("vertices", 1);
-        return true;
-      };
-      limit_overshoot(patches, picture, last, end, report.fit);
+      const double done = 1;
+      limit_overshoot(patches, picture, last, rounds_context(context, done, 0), report.fit);
     }
   });
   if (report.accepted > 0 && fit.method != FitMethod::hermite) {

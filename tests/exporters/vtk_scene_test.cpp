@@ -168,12 +168,18 @@ ErrorCode error_of_reading(const fs::path& path) {
   return {};
 }
 
-TEST(VtkScene, RefusesToReadWhatIsNotItsOwn) {
-  const fs::path folder = fresh_folder("foreign_index");
+/// A fresh folder with a scene file, a.vtm, of random patches and a picture of 40 x 30 pixels.
+fs::path folder_with_scene(const std::string& name) {
+  const fs::path folder = fresh_folder(name);
   const Raster picture(40, 30, 3);
   write_vtm(
       {40, 30, {picture_group(std::make_shared<const VectorImage>(random_picture()), &picture)}},
       folder / "a.vtm");
+  return folder;
+}
+
+TEST(VtkScene, RefusesToReadWhatIsNotItsOwn) {
+  const fs::path folder = folder_with_scene("foreign_index");
   EXPECT_EQ(error_of_reading(folder / "none.vtm"), ErrorCode::io_failure);
   const auto expect_refused = [&](const std::string& index, ErrorCode code) {
     std::ofstream(folder / "b.vtm") << index;
@@ -219,11 +225,7 @@ TEST(VtkScene, RefusesToReadWhatIsNotItsOwn) {
 }
 
 TEST(VtkScene, RefusesWhatIsTooLargeBeforeReadingIt) {
-  const fs::path folder = fresh_folder("large");
-  const Raster picture(40, 30, 3);
-  write_vtm(
-      {40, 30, {picture_group(std::make_shared<const VectorImage>(random_picture()), &picture)}},
-      folder / "a.vtm");
+  const fs::path folder = folder_with_scene("large");
   const fs::path pixels = folder / "a_vtm" / "picture_picture.vti";
   std::string bytes = bytes_of(pixels);
   const auto at = bytes.find("<Piece Extent=\"") + 15;
@@ -236,11 +238,7 @@ TEST(VtkScene, RefusesWhatIsTooLargeBeforeReadingIt) {
 }
 
 TEST(VtkScene, RefusesPixelsThatClaimMoreBytesThanTheyTake) {
-  const fs::path folder = fresh_folder("claim");
-  const Raster picture(40, 30, 3);
-  write_vtm(
-      {40, 30, {picture_group(std::make_shared<const VectorImage>(random_picture()), &picture)}},
-      folder / "a.vtm");
+  const fs::path folder = folder_with_scene("claim");
   const fs::path pixels = folder / "a_vtm" / "picture_picture.vti";
   std::string bytes = bytes_of(pixels);
   ASSERT_NE(bytes.find("header_type=\"UInt64\""), std::string::npos);

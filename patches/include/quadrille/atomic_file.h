@@ -6,6 +6,10 @@
 
 namespace quadrille {
 
+/// The name of a file that is not there, in the folder of `target` and with its ending, by which
+/// many writers choose the format.
+std::filesystem::path temporary_beside(const std::filesystem::path& target);
+
 /// Calls `write` with the path of a temporary beside `target` that has the same file ending, and
 /// renames it over the target when `write` returns. When `write` throws, or the rename fails, the
 /// temporary is removed and the target is left as it was.
