@@ -194,9 +194,12 @@ class PdfBuilder {
 
   static std::string filled(const std::string& path) { return drawn(path, "f"); }
 
-  /// A line of width 0 is as thin as the device has them.
+  /// A line of width 0 is as thin as the device has them. MuPDF covers a quarter of its pixels then
+  /// and Ghostscript half of them, more where it is drawn again.
   static std::string hairlines(const std::string& path, const std::string& gray) {
-    return path.empty() ? path : gray + " G 0 w\n" + drawn(path, "S");
+    if (path.empty()) return path;
+    const std::string line = drawn(path, "S");
+    return gray + " G 0 w\n" + line + line + line;
   }
 
   static std::string drawn(const std::string& path, const std::string& operation) {

@@ -15,8 +15,8 @@ constexpr int kCounts[] = {1, 2, 3, 4, 6, 8, 12, 24};
 constexpr int kCountCount = static_cast<int>(std::size(kCounts));
 /// Added before colours are cut off to whole steps. MuPDF and Ghostscript cut off the colours of
 /// pixels in turn, which darkens them by half a step, and pdf.js does so twice; poppler rounds.
-/// This lies between. What it adds to colours in the mean is no error of the fit, but white has
-/// nothing to be cut off.
+/// This lies between. More cells would not mend what it adds to colours in the mean, except to
+/// white, from which nothing is cut off.
 constexpr float kRounding = 0.875f, kAdded = kRounding - 0.5f;
 /// Counts below this index are fitted to the coarse samples, all of them to the fine ones.
 constexpr int kCoarseCounts = 6, kCoarseSamples = 24 + 2, kFineSamples = 72 + 2;

@@ -39,20 +39,39 @@ Raster drawn(const VectorImage& image, int scale) {
   return load_image(stem.string() + ".png");
 }
 
-TEST(PdfAlpha, AcrossATearColorsAreWeightedByTheirAlpha) {
-  constexpr double kTear = 24.1, kFaint = 0.1;
+/// Two patches, the tear between them within pixels.
+constexpr double kTear = 24.1;
+VectorImage torn_pair(const Color& left, const Color& right) {
   QuadMesh mesh = testing::lattice(2, 1, 48, 16);
   for (auto& vertex : mesh.vertices) {
     if (vertex.x() == 24) vertex.x() = kTear;
   }
-  const Color white(1, 1, 1, 1), shadow(0, 0, 0, static_cast<float>(kFaint));
-  const VectorImage image = torn_picture(std::move(mesh), kTear, {white, shadow});
+  return torn_picture(std::move(mesh), kTear, {left, right});
+}
+
+TEST(PdfAlpha, AcrossATearColorsAreWeightedByTheirAlpha) {
+  constexpr double kFaint = 0.1;
+  const VectorImage image =
+      torn_pair(Color(1, 1, 1, 1), Color(0, 0, 0, static_cast<float>(kFaint)));
   for (const int scale : {1, 3, 4, 7}) {
     const Raster picture = drawn(image, scale);
     for (int x = 0; x < picture.width; ++x) {
       const double left = std::clamp(kTear * scale - x, 0.0, 1.0);
       EXPECT_NEAR(picture.pixel(x, picture.height / 2)[0], left + (1 - left) * (1 - kFaint), 0.03)
           << scale << ' ' << x;
+    }
+  }
+}
+
+TEST(PdfAlpha, AcrossATearBetweenTranslucentPatchesTheOneWithMoreAlphaPrevails) {
+  const Color light(0.9f, 0.9f, 0.9f, 0.9f), shadow(0, 0, 0, 0.1f);
+  for (const VectorImage& image : {torn_pair(light, shadow), torn_pair(shadow, light)}) {
+    for (const int scale : {1, 3, 4, 7}) {
+      const Raster picture = drawn(image, scale);
+      // Over white, the one side is white, the other 10 % darker.
+      for (int x = 0; x < picture.width; ++x) {
+        EXPECT_GE(picture.pixel(x, picture.height / 2)[0], 0.86f) << scale << ' ' << x;
+      }
     }
   }
 }
