@@ -16,6 +16,7 @@ struct PaintGroups {
 
   std::vector<int> group;  ///< per quad, or one of these
   int count = 0;
+  bool paints(int quad) const { return group[quad] >= 0 && group[quad] < count; }
 
   /// Whether something else cuts the picture off at the border of the mesh, and toward patches that
   /// are not painted; patches then reach beyond these edges.

@@ -99,7 +99,7 @@ class PdfBuilder {
           scratch_, context_, [&](double part) {
             context_.progress("write PDF", kPainting * (l + part) / image_.layers.size());
           });
-      content += painted(layer, resources_);
+      for (const PaintedPart& part : layer.parts) content += painted(part, layer.grid, resources_);
     }
     Object page = indirect(Object::newDictionary());
     page.replaceKey("/Type", Object::newName("/Page"));
@@ -132,29 +132,23 @@ class PdfBuilder {
     }
   };
 
-  std::string painted(const PaintedLayer& layer, Resources& resources) {
-    if (!layer.masked) return painted_colors(layer, resources);
-    Resources inner;
-    std::string mask = painted(layer.alpha, layer.grid, inner, kGrays);
-    if (!layer.opaque_region.empty()) mask += "1 g\n" + filled(layer.opaque_region);
+  std::string painted(const PaintedPart& part, const CoordinateGrid& grid, Resources& resources) {
+    const bool masked = !part.alpha.empty() || !part.region.empty();
     Resources group;
-    const std::string colors = painted_colors(layer, group);
+    Resources& used = masked ? group : resources;
+    const std::string colors =
+        beneath(part.underlay, used) + painted(part.color, grid, used, kColors);
+    if (!masked) return colors;
+    Resources inner;
+    const std::string mask = part.alpha.empty() ? "1 g\n" + filled(part.region)
+                                                : painted(part.alpha, grid, inner, kGrays);
     return through_mask(soft_mask(mask, inner), colors, group, kColors, resources);
   }
 
-  std::string painted_colors(const PaintedLayer& layer, Resources& resources) {
-    return beneath(layer, resources) + painted(layer.color, layer.grid, resources, kColors);
-  }
-
-  std::string beneath(const PaintedLayer& layer, Resources& resources) {
-    if (layer.underlay.empty()) return {};
-    const bool cut_off = !layer.underlay_region.empty();
-    Resources inner;
-    const std::string name = (cut_off ? inner : resources).add_form(picture(layer.underlay));
-    const std::string paint = "q\n" + image_matrix(layer.underlay) + " cm\n" + name + " Do\nQ\n";
-    if (!cut_off) return paint;
-    const Object mask = soft_mask("1 g\n" + filled(layer.underlay_region), Resources{});
-    return through_mask(mask, paint, inner, kColors, resources);
+  std::string beneath(const Underlay& underlay, Resources& resources) {
+    if (underlay.empty()) return {};
+    const std::string name = resources.add_form(picture(underlay));
+    return "q\n" + image_matrix(underlay) + " cm\n" + name + " Do\nQ\n";
   }
 
   Object picture(const Underlay& underlay) {
@@ -173,7 +167,6 @@ class PdfBuilder {
                       Resources& resources, const char* color_space) {
     std::string content;
     for (const PaintStep& step : steps) {
-      if (step.shading.empty()) continue;
       const bool cut_off = !step.region.empty();
       Resources inner;
       const std::string name =
@@ -183,7 +176,9 @@ class PdfBuilder {
         content += paint;
         continue;
       }
-      const Object mask = soft_mask("1 g\n" + filled(step.region), Resources{});
+      const std::string region = "1 g\n" + filled(step.region) + hairlines(step.growing, "1") +
+                                 hairlines(step.shrinking, "0");
+      const Object mask = soft_mask(region, Resources{});
       content += through_mask(mask, paint, inner, color_space, resources);
     }
     return content;
@@ -197,9 +192,19 @@ class PdfBuilder {
     return "q\n" + resources.add_state(mask) + " gs\n" + form + " Do\nQ\n";
   }
 
-  static std::string filled(const std::string& path) {
+  static std::string filled(const std::string& path) { return drawn(path, "f"); }
+
+  /// A line of width 0 is as thin as the device has them. MuPDF covers a quarter of its pixels then
+  /// and Ghostscript half of them, more where it is drawn again.
+  static std::string hairlines(const std::string& path, const std::string& gray) {
+    if (path.empty()) return path;
+    const std::string line = drawn(path, "S");
+    return gray + " G 0 w\n" + line + line + line;
+  }
+
+  static std::string drawn(const std::string& path, const std::string& operation) {
     const std::string scale = fixed(1.0 / PaintedLayer::kPathUnits);
-    return "q\n" + scale + " 0 0 " + scale + " 0 0 cm\n" + path + "f\nQ\n";
+    return "q\n" + scale + " 0 0 " + scale + " 0 0 cm\n" + path + operation + "\nQ\n";
   }
 
   std::string page_rectangle() const {

@@ -15,8 +15,9 @@ constexpr int kCounts[] = {1, 2, 3, 4, 6, 8, 12, 24};
 constexpr int kCountCount = static_cast<int>(std::size(kCounts));
 /// Added before colours are cut off to whole steps. MuPDF and Ghostscript cut off the colours of
 /// pixels in turn, which darkens them by half a step, and pdf.js does so twice; poppler rounds.
-/// This lies between.
-constexpr float kRounding = 0.875f;
+/// This lies between. More cells would not mend what it adds to colours in the mean, except to
+/// white, from which nothing is cut off.
+constexpr float kRounding = 0.875f, kAdded = kRounding - 0.5f;
 /// Counts below this index are fitted to the coarse samples, all of them to the fine ones.
 constexpr int kCoarseCounts = 6, kCoarseSamples = 24 + 2, kFineSamples = 72 + 2;
 
@@ -159,7 +160,9 @@ Fit fitted(const Target& target, const HatBasis& u, const HatBasis& v) {
   for (int c = 0; c < target.channels; ++c) {
     const Eigen::MatrixXf nodes = u.fit * target.channel[c] * v.fit.transpose();
     fit.nodes[c] = (nodes.array() + kRounding).max(0.0f).min(255.0f).floor();
-    Samples error = (u.hats * fit.nodes[c] * v.hats.transpose() - target.channel[c]).cwiseAbs();
+    const auto& n = fit.nodes[c];
+    const Eigen::MatrixXf shown = (n.array() < 255).select(n.array() - kAdded, n.array());
+    Samples error = (u.hats * shown * v.hats.transpose() - target.channel[c]).cwiseAbs();
     if (target.weighted) error = error.cwiseProduct(target.weight);
     fit.mean_squared += error.squaredNorm() / double(target.channels * error.size());
     fit.largest = std::max(fit.largest, double(error.maxCoeff()));

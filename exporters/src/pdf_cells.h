@@ -48,9 +48,10 @@ class CellTable {
 
 /// The fewest cells per patch whose colours, fitted by least squares, stay within half of
 /// `tolerance` (8-bit steps) of the patch's in the root mean square and within twice of it
-/// anywhere; straight colours count by their alpha. Where none of at most 24 x 24 cells about a
-/// pixel wide do, as many as that. Fitted bilinear pieces need about half as many cells as pieces
-/// that interpolate the colours at their corners.
+/// anywhere; straight colours count by their alpha, and what rounding up adds for viewers that cut
+/// colours off does not count. Where none of at most 24 x 24 cells about a pixel wide do, as many
+/// as that. Fitted bilinear pieces need about half as many cells as pieces that interpolate the
+/// colours at their corners.
 PatchCells fit_cells(const Layer& layer, int quad, ShadedQuantity quantity, double tolerance);
 
 }  // namespace quadrille

@@ -10,6 +10,7 @@
 #include "patch_opacity.h"
 #include "pdf_agree.h"
 #include "pdf_region_path.h"
+#include "pdf_tear_lines.h"
 
 namespace quadrille {
 namespace {
@@ -30,56 +31,61 @@ class LayerPainter {
         opacity_(paint_opacities(layer.patches, 0.5 * tolerance / 255, paintable_)) {}
 
   PaintedLayer run(bool fills_page, Transparency transparency) {
-    const QuadMesh& mesh = layer_.patches.mesh;
     PaintedLayer painted;
     const Eigen::AlignedBox2d box = bounds();
     painted.grid = grid_ = CoordinateGrid::covering(with_margin(box));
-    painted.masked = transparency == Transparency::soft_mask && !all(PatchOpacity::opaque);
 
-    PaintGroups groups = paint_groups(mesh, where_not(PatchOpacity::transparent), paintable_);
-    groups.open_border = fills_page || painted.masked;
-    groups.open_unpainted = painted.masked;
-    jobs_ = painted.masked ? 2 : 1;
+    const std::vector<char> drawn = where_not(PatchOpacity::transparent);
+    PaintGroups groups = paint_groups(layer_.patches.mesh, drawn, paintable_);
+    groups.open_border = groups.open_unpainted = true;  // the page or the part cuts them off
     const bool flatten = transparency == Transparency::over_white;
     const auto quantity = flatten ? ShadedQuantity::over_white : ShadedQuantity::color;
-    const CellTable cells = fitted(groups, groups.count, quantity);
-    painted.underlay = underlay(layer_, cells, box);
-    if (!fills_page && !painted.masked) {
-      painted.underlay_region = region(border_of(mesh, where_not(PatchOpacity::transparent)));
+    const bool masked = !flatten && any(PatchOpacity::translucent);
+    jobs_ = masked ? 5 : 2;
+    const CellTable cells = fitted(groups, quantity);
+    const auto add_part = [&](const PaintGroups& own) -> PaintedPart& {
+      return painted.parts.emplace_back(
+          PaintedPart{underlay(layer_, own, cells, box), steps(own, quantity, cells), {}, {}});
+    };
+    if (masked) {
+      PaintGroups translucent = among(where(PatchOpacity::translucent), groups);
+      PaintedPart& part = add_part(translucent);
+      translucent.open_border = fills_page;
+      translucent.open_unpainted = false;
+      const CellTable alphas = fitted(translucent, ShadedQuantity::alpha);
+      part.alpha = steps(translucent, ShadedQuantity::alpha, alphas);
     }
-    painted.color = steps(groups, groups.count, quantity, cells);
-    if (painted.masked) paint_alpha(painted, fills_page);
+    const std::vector<char> rest = masked ? where(PatchOpacity::opaque) : drawn;
+    PaintedPart& part = add_part(among(rest, groups));
+    const bool all = std::ranges::all_of(rest, [](char is) { return is != 0; });
+    if (!fills_page || !all) part.region = region(border_of(layer_.patches.mesh, rest));
     return painted;
   }
 
  private:
-  /// What is opaque needs no shading: its outline filled says the same, sharply.
-  void paint_alpha(PaintedLayer& painted, bool fills_page) {
-    const QuadMesh& mesh = layer_.patches.mesh;
-    std::vector<char> opaque(opacity_.size()), translucent(opacity_.size());
-    for (std::size_t q = 0; q < opacity_.size(); ++q) {
-      opaque[q] = opacity_[q] == PatchOpacity::opaque;
-      translucent[q] = opacity_[q] == PatchOpacity::translucent;
+  /// The groups of these patches alone; the others hide or cut off whatever reaches there.
+  static PaintGroups among(const std::vector<char>& patches, PaintGroups groups) {
+    for (std::size_t q = 0; q < patches.size(); ++q) {
+      if (groups.group[q] >= 0 && !patches[q]) groups.group[q] = groups.count;
     }
-    PaintGroups groups = paint_groups(mesh, translucent, paintable_);
-    groups.open_border = fills_page;
-    for (std::size_t q = 0; q < opacity_.size(); ++q) {
-      if (opaque[q]) groups.group[q] = groups.count;
-    }
-    painted.alpha = steps(groups, groups.count, ShadedQuantity::alpha,
-                          fitted(groups, groups.count, ShadedQuantity::alpha));
-    painted.opaque_region = region(border_of(mesh, opaque));
+    return groups;
   }
 
-  std::vector<PaintStep> steps(const PaintGroups& groups, int count, ShadedQuantity quantity,
+  std::vector<PaintStep> steps(const PaintGroups& groups, ShadedQuantity quantity,
                                const CellTable& cells) {
     const QuadMesh& mesh = layer_.patches.mesh;
     std::vector<PaintStep> all;
-    for (int g = 0; g < count; ++g) {
+    for (int g = 0; g < groups.count; ++g) {
       const auto visits = visit_patches(mesh, groups, g, cells);
-      const auto share = [&](double part) { report(0.5 + 0.5 * (g + part) / count); };
-      all.push_back({coons_shading(layer_, groups, visits, cells, grid_, quantity, scratch_, share),
-                     region(group_region(mesh, groups, g))});
+      if (visits.empty()) continue;
+      const auto share = [&](double part) { report((g + part) / groups.count); };
+      PaintStep& step = all.emplace_back();
+      step.shading = coons_shading(layer_, groups, visits, cells, grid_, quantity, scratch_, share);
+      step.region = region(group_region(mesh, groups, g));
+      if (quantity != ShadedQuantity::color) continue;
+      const TearLines lines = tear_lines(layer_.patches, groups, g);
+      step.growing = edges_path(layer_, lines.growing, PaintedLayer::kPathUnits);
+      step.shrinking = edges_path(layer_, lines.shrinking, PaintedLayer::kPathUnits);
     }
     ++jobs_done_;
     return all;
@@ -89,10 +95,10 @@ class LayerPainter {
     return region_path(layer_, loops, PaintedLayer::kPathUnits);
   }
 
-  CellTable fitted(const PaintGroups& groups, int count, ShadedQuantity quantity) {
+  CellTable fitted(const PaintGroups& groups, ShadedQuantity quantity) {
     std::vector<int> quads;
     for (int q = 0; q < layer_.patches.patch_count(); ++q) {
-      if (groups.group[q] >= 0 && groups.group[q] < count) quads.push_back(q);
+      if (groups.paints(q)) quads.push_back(q);
     }
     CellTable table(layer_.patches.patch_count());
     const int total = static_cast<int>(quads.size());
@@ -105,13 +111,14 @@ class LayerPainter {
         });
       });
       for (int i = begin; i < end; ++i) table.add(quads[i], chunk[i - begin]);
-      report(0.5 * end / total);
+      report(double(end) / total);
     }
     agree_at_shared_sides(layer_.patches, groups, tolerance_, table);
+    ++jobs_done_;
     return table;
   }
 
-  /// `part` of the work on one quantity is done.
+  /// `part` of the job under way is done.
   void report(double part) const { progress_((jobs_done_ + part) / jobs_); }
 
   /// Of the drawn patches.
@@ -133,14 +140,19 @@ class LayerPainter {
     return box.isEmpty() ? box : Eigen::AlignedBox2d(box.min() - margin, box.max() + margin);
   }
 
-  bool all(PatchOpacity opacity) const {
-    return std::all_of(opacity_.begin(), opacity_.end(),
-                       [&](PatchOpacity o) { return o == opacity; });
+  bool any(PatchOpacity opacity) const {
+    return std::ranges::find(opacity_, opacity) != opacity_.end();
+  }
+
+  std::vector<char> where(PatchOpacity opacity) const {
+    std::vector<char> where(opacity_.size());
+    std::ranges::transform(opacity_, where.begin(), [&](PatchOpacity o) { return o == opacity; });
+    return where;
   }
 
   std::vector<char> where_not(PatchOpacity opacity) const {
-    std::vector<char> where(opacity_.size());
-    for (std::size_t q = 0; q < where.size(); ++q) where[q] = opacity_[q] != opacity;
+    std::vector<char> where = this->where(opacity);
+    for (char& is : where) is = !is;
     return where;
   }
 

@@ -90,8 +90,7 @@ class PostScriptWriter {
                       options_.tolerance, scratch_, context_, [&](double part) {
                         context_.progress("write PostScript", (l + part) / image_.layers.size());
                       });
-      if (!layer.underlay.empty()) write_underlay(layer);
-      for (const PaintStep& step : layer.color) write_step(step, layer.grid);
+      for (const PaintedPart& part : layer.parts) write_part(part, layer.grid);
     }
     out_ << "grestore\nshowpage\nend\n%%EOF\n";
   }
@@ -116,9 +115,16 @@ class PostScriptWriter {
     }
   }
 
+  void write_part(const PaintedPart& part, const CoordinateGrid& grid) {
+    out_ << "gsave\n";
+    clip(part.region);
+    if (!part.underlay.empty()) write_underlay(part.underlay);
+    for (const PaintStep& step : part.color) write_step(step, grid);
+    out_ << "grestore\n";
+  }
+
   /// The data follow the procedure that reads them.
   void write_step(const PaintStep& step, const CoordinateGrid& grid) {
-    if (step.shading.empty()) return;
     out_ << "gsave\n";
     clip(step.region);
     out_ << "{ /data currentfile /ASCII85Decode filter def\n<< "
@@ -130,13 +136,10 @@ class PostScriptWriter {
     out_ << "grestore\n";
   }
 
-  void write_underlay(const PaintedLayer& layer) {
-    const Underlay& image = layer.underlay;
+  void write_underlay(const Underlay& image) {
     const std::string width = to_text(static_cast<long long>(image.width)),
                       height = to_text(static_cast<long long>(image.height));
-    out_ << "gsave\n";
-    clip(layer.underlay_region);
-    out_ << '[' << image_matrix(image) << "] concat\n"
+    out_ << "gsave\n[" << image_matrix(image) << "] concat\n"
          << "{ /data currentfile /ASCII85Decode filter def " << width << ' ' << height << " 8 ["
          << width << " 0 0 -" << height << " 0 " << height
          << "] data false 3 colorimage data flushfile } exec\n";

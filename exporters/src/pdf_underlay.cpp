@@ -63,13 +63,16 @@ class Canvas {
 
 }  // namespace
 
-Underlay underlay(const Layer& layer, const CellTable& cells, const Eigen::AlignedBox2d& box) {
+Underlay underlay(const Layer& layer, const PaintGroups& groups, const CellTable& cells,
+                  const Eigen::AlignedBox2d& box) {
   std::vector<int> quads;
+  int pixels = 0;
   for (int q = 0; q < layer.patches.patch_count(); ++q) {
-    if (cells.count(q).u > 0) quads.push_back(q);
+    if (groups.paints(q)) quads.push_back(q);
+    pixels += cells.count(q).u > 0;
   }
   if (quads.empty() || !(box.volume() > 0)) return {};
-  Canvas canvas(box, static_cast<int>(quads.size()));
+  Canvas canvas(box, pixels);
   for (const int q : quads) {
     const BicubicHermite<Eigen::Vector2d> position = placed_geometry(layer, q);
     const Divisions n = cells.count(q);

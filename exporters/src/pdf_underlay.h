@@ -18,9 +18,10 @@ struct Underlay {
   bool empty() const { return rgb.empty(); }
 };
 
-/// The colours of the painted patches with about one pixel per patch, to lie beneath them: viewers
-/// round the corners of cells and straighten their sides, and leave pixels open here and there.
-/// Empty when nothing is painted.
-Underlay underlay(const Layer& layer, const CellTable& cells, const Eigen::AlignedBox2d& box);
+/// The colours of the patches of all groups with about one pixel per patch that has cells, to lie
+/// beneath them: viewers round the corners of cells and straighten their sides, and leave pixels
+/// open here and there. Empty when nothing is painted.
+Underlay underlay(const Layer& layer, const PaintGroups& groups, const CellTable& cells,
+                  const Eigen::AlignedBox2d& box);
 
 }  // namespace quadrille

@@ -1,7 +1,6 @@
 #include "pdf_shading.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -11,85 +10,17 @@
 
 #include "paintable_patch.h"
 #include "patch_opacity.h"
-#include "pdf_layer.h"
-#include "support/programs.h"
+#include "pdf_records.h"
 #include "support/random_patches.h"
 
 namespace quadrille {
 namespace {
 
 using Eigen::Vector2d;
-using Bytes = std::vector<std::uint8_t>;
+using test::Painted;
+using test::ReadPatch;
 
 constexpr double kSize = 48;
-
-/// What /FlateDecode with /Predictor 12 makes of the stream.
-Bytes inflated(ScratchFile& scratch, const CoonsShading& shading) {
-  Bytes stored;
-  scratch.read(shading.data, [&](ScratchFile::Bytes part) {
-    stored.insert(stored.end(), part.begin(), part.end());
-  });
-  Bytes rows(64 << 20);
-  uLongf size = rows.size();
-  EXPECT_EQ(uncompress(rows.data(), &size, stored.data(), stored.size()), Z_OK);
-  const std::size_t row = shading.record_bytes;
-  EXPECT_EQ(size % (row + 1), 0u);
-  Bytes data;
-  for (std::size_t begin = 0; begin < size; begin += row + 1) {
-    EXPECT_EQ(rows[begin], 2);
-    for (std::size_t i = 0; i < row; ++i) {
-      const int above = begin > 0 ? data[data.size() - row] : 0;
-      data.push_back(static_cast<std::uint8_t>(rows[begin + 1 + i] + above));
-    }
-  }
-  return data;
-}
-
-/// A Coons patch as ISO 32000-1, 8.7.4.5.7, has it: 12 points around it, colours at every third.
-struct ReadPatch {
-  std::array<Vector2d, 12> points;
-  std::array<std::array<int, 3>, 4> colors;
-};
-
-std::vector<ReadPatch> patches_in(const Bytes& data, const CoordinateGrid& grid) {
-  std::vector<ReadPatch> patches;
-  std::size_t at = 0;
-  const auto coordinate = [&](int axis) {
-    std::uint32_t number = 0;
-    for (int k = 0; k < grid.bits / 8; ++k) number = number << 8 | data.at(at++);
-    return grid.origin[axis] + grid.unit * number;
-  };
-  while (at < data.size()) {
-    const int flag = data.at(at++);
-    ReadPatch patch;
-    if (flag > 0) {
-      const ReadPatch& before = patches.back();
-      for (int k = 0; k < 4; ++k) patch.points[k] = before.points[(3 * flag + k) % 12];
-      for (int k = 0; k < 2; ++k) patch.colors[k] = before.colors[(flag + k) % 4];
-    }
-    for (int k = flag > 0 ? 4 : 0; k < 12; ++k) {
-      const double x = coordinate(0);
-      patch.points[k] = {x, coordinate(1)};
-    }
-    for (int k = flag > 0 ? 2 : 0; k < 4; ++k) {
-      for (int& channel : patch.colors[k]) channel = data.at(at++);
-    }
-    patches.push_back(patch);
-  }
-  return patches;
-}
-
-struct Painted {
-  ScratchFile scratch{test::scratch_dir() / "painted.pdf"};
-  PaintedLayer layer;
-
-  Painted(const Layer& drawn, double tolerance)
-      : layer(paint_layer(drawn, true, Transparency::soft_mask, tolerance, scratch, {},
-                          [](double) {})) {}
-  std::vector<ReadPatch> read() {
-    return patches_in(inflated(scratch, layer.color.at(0).shading), layer.grid);
-  }
-};
 
 bool has_corner(const ReadPatch& patch, const Vector2d& p, double within) {
   return std::ranges::any_of(std::array{0, 3, 6, 9},
@@ -167,7 +98,7 @@ TEST(PdfShading, AnUnderlayHasThePatchesColors) {
   PatchMesh patches = straight_patches(testing::lattice(8, 8, kSize, kSize));
   testing::set_linear_colors(patches, Color(0, 0.5f, 1, 1), Color(1.0f / kSize, 0, 0, 0));
   const VectorImage image = testing::single_layer(std::move(patches), kSize, kSize);
-  const Underlay underlay = Painted(image.layers[0], 2).layer.underlay;
+  const Underlay underlay = Painted(image.layers[0], 2).layer.parts.at(0).underlay;
   ASSERT_EQ(underlay.width, 8);
   ASSERT_EQ(underlay.height, 8);
   for (int x = 0; x < 8; ++x) {
