@@ -7,6 +7,7 @@
 #include "patch_sides.h"
 #include "svg_bleed.h"
 #include "svg_path.h"
+#include "svg_slope.h"
 
 namespace quadrille {
 namespace {
@@ -135,6 +136,8 @@ class PatchDivider {
       samples.color[index] = (c.head<3>().cast<double>() * straight).max(0.0).min(255.0);
       samples.weight[index] = area * alpha * alpha;
     }
+    const auto slopes = paint_slopes(position_, color_, paint_, u, v);
+    samples.slopes += samples.weight[index] * (slopes.transpose() * slopes);
   }
 
   double side_u(const ParameterBox& box) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -24,17 +25,24 @@ constexpr double kOpacities[] = {0.2, 0.35, 0.5, 0.65};
 constexpr double kHopeless = 2;
 /// What the parts of a fill take in a compressed file, in bytes.
 constexpr double kFlatBytes = 5, kGradientBytes = 11, kStopBytes = 5.7;
+constexpr double kOwnVectorBytes = 10;
+/// Angles from the steepest one at which an own vector is tried as well, in turns halved.
+constexpr double kFirstTurn = std::numbers::pi / 24;
+constexpr int kTurns = 3;
+/// Steps by which its range is made shorter at its ends.
+constexpr double kShortening = 0.125;
 
-double gradient_bytes(int stops) { return kGradientBytes + kStopBytes * stops; }
+double gradient_bytes(const RidgeAxis& axis, int stops) {
+  return kGradientBytes + (axis.vector.is_common ? 0 : kOwnVectorBytes) + kStopBytes * stops;
+}
+/// Those of the smallest gradient.
+constexpr double kLeastGradientBytes = kGradientBytes + 2 * kStopBytes;
 
 /// Colours of the stops, one per row.
 using Stops = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, LinearGradient::kMaxStops, 3>;
 
-LinearGradient gradient_of(const RidgeAxis& axis, int direction, const Stops& stops) {
-  LinearGradient gradient{.direction = direction,
-                          .first = axis.first,
-                          .last = axis.last,
-                          .stop_count = static_cast<int>(stops.rows())};
+LinearGradient gradient_of(const RidgeAxis& axis, const Stops& stops) {
+  LinearGradient gradient{.vector = axis.vector, .stop_count = static_cast<int>(stops.rows())};
   for (int k = 0; k < gradient.stop_count; ++k) {
     gradient.stops[k] = rounded_color(stops.row(k).transpose().array());
   }
@@ -45,10 +53,8 @@ class CellFitter {
  public:
   CellFitter(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double price,
              double again, double limit)
-      : s_(samples), price_(price), again_(again), limit_(limit) {
-    for (int d = 0; d < LinearGradient::kDirections; ++d) {
-      axes_[d] = ridge_axis(samples, bounds, d);
-    }
+      : s_(samples), bounds_(bounds), price_(price), again_(again), limit_(limit) {
+    for (int d = 0; d < kCommonDirections; ++d) axes_[d] = common_axis(samples, bounds, d);
     for (int i = 0; i < CellSamples::kCount; ++i) {
       total_ += s_.weight[i];
       mean_ += s_.weight[i] * s_.color[i];
@@ -60,10 +66,10 @@ class CellFitter {
   CellFit run() {
     CellFit best = flat();
     // Nothing more can pay when even a perfect fill would not.
-    if (best.squared_error <= price_ * (gradient_bytes(2) - kFlatBytes)) return best;
+    if (best.squared_error <= price_ * (kLeastGradientBytes - kFlatBytes)) return best;
     const CellFit one = single();
     if (one.cost(price_) < best.cost(price_)) best = one;
-    if (one.squared_error <= price_ * (again_ + gradient_bytes(2))) return best;
+    if (one.squared_error <= price_ * (again_ + kLeastGradientBytes)) return best;
     const std::optional<CellFit> two = pair();
     if (two && two->cost(price_) < best.cost(price_)) best = *two;
     return best;
@@ -74,25 +80,73 @@ class CellFitter {
     CellFit fit;
     fit.fill.base.stops[0] = rounded_color(mean_);
     fit.bytes = kFlatBytes;
-    measure(fit);
+    measure(fit, axes_[0], axes_[0]);
     return fit;
   }
 
-  CellFit single() const {
-    double lowest = std::numeric_limits<double>::max();
-    int direction = 0;
-    RidgeSolution<RidgeSystem::kSize> best;
-    for (const int stops : kCounts) {
-      for (int d = 0; d < LinearGradient::kDirections; ++d) {
-        const auto solution = solve_ridge(RidgeSystem(s_, axes_[d], stops));
-        const double cost = (squares_ - solution.explained) / 3 + price_ * gradient_bytes(stops);
-        if (cost < lowest) lowest = cost, direction = d, best = solution;
+  struct Ridge {
+    RidgeAxis axis;
+    RidgeSolution<RidgeSystem::kSize> solution;
+    double cost = std::numeric_limits<double>::max();
+    int stops() const { return static_cast<int>(solution.stops.rows()); }
+  };
+
+  /// True when it is better.
+  bool try_ridge(Ridge& best, const RidgeAxis& axis, int stops) const {
+    const auto solution = solve_ridge(RidgeSystem(s_, axis, stops));
+    const double cost = (squares_ - solution.explained) / 3 + price_ * gradient_bytes(axis, stops);
+    if (cost >= best.cost) return false;
+    best = {axis, solution, cost};
+    return true;
+  }
+
+  /// About the best axis of the cell's own.
+  Ridge own() const {
+    Ridge best;
+    AxisRange range{.angle = steepest_angle(s_, bounds_)};
+    const RidgeAxis steepest = own_axis(s_, bounds_, range);
+    for (const int stops : kCounts) try_ridge(best, steepest, stops);
+    double turn = kFirstTurn;
+    for (int i = 0; i < kTurns; ++i, turn *= 0.5) {
+      AxisRange left = range, right = range;
+      left.angle -= turn;
+      right.angle += turn;
+      if (try_ridge(best, own_axis(s_, bounds_, left), best.stops())) {
+        range = left;
+      } else if (try_ridge(best, own_axis(s_, bounds_, right), best.stops())) {
+        range = right;
       }
     }
+    for (const int stops : {2, 3}) shorten(best, range, stops);
+    return best;
+  }
+
+  /// Tries shorter ranges as long as they get better: few stops are enough for a ramp between two
+  /// constant colours.
+  void shorten(Ridge& best, AxisRange range, int stops) const {
+    Ridge here;
+    try_ridge(here, own_axis(s_, bounds_, range), stops);
+    for (double AxisRange::*end : {&AxisRange::before, &AxisRange::after}) {
+      while (range.before + range.after + kShortening < 1) {
+        AxisRange shorter = range;
+        shorter.*end += kShortening;
+        if (!try_ridge(here, own_axis(s_, bounds_, shorter), stops)) break;
+        range = shorter;
+      }
+    }
+    if (here.cost < best.cost) best = here;
+  }
+
+  CellFit single() {
+    Ridge best = own();
+    axes_[kOwn] = best.axis;
+    for (int d = 0; d < kCommonDirections; ++d) {
+      for (const int stops : kCounts) try_ridge(best, axes_[d], stops);
+    }
     CellFit fit;
-    fit.fill.base = gradient_of(axes_[direction], direction, best.stops);
-    fit.bytes = gradient_bytes(fit.fill.base.stop_count);
-    measure(fit);
+    fit.fill.base = gradient_of(best.axis, best.solution.stops);
+    fit.bytes = gradient_bytes(best.axis, best.stops());
+    measure(fit, best.axis, best.axis);
     return fit;
   }
 
@@ -105,19 +159,20 @@ class CellFitter {
 
   void try_pair(Pair& best, const RidgeSystem& a, int da, const RidgeSystem& b, int db) const {
     Pair pair{{da, db}, {a.stops, b.stops}, 0, solve_ridges(s_, a, b)};
-    pair.cost = (squares_ - pair.solution.explained) / 3 +
-                price_ * (gradient_bytes(a.stops) + gradient_bytes(b.stops) + again_);
+    pair.cost =
+        (squares_ - pair.solution.explained) / 3 +
+        price_ * (gradient_bytes(axes_[da], a.stops) + gradient_bytes(axes_[db], b.stops) + again_);
     if (pair.cost < best.cost) best = pair;
   }
 
   std::optional<CellFit> pair() const {
-    std::array<RidgeSystem, LinearGradient::kDirections> scouts;
-    for (int d = 0; d < LinearGradient::kDirections; ++d) {
+    std::array<RidgeSystem, kAxes> scouts;
+    for (int d = 0; d < kAxes; ++d) {
       scouts[d] = RidgeSystem(s_, axes_[d], kScoutStops);
     }
     Pair best;
-    for (int a = 0; a < LinearGradient::kDirections; ++a) {
-      for (int b = a + 1; b < LinearGradient::kDirections; ++b) {
+    for (int a = 0; a < kAxes; ++a) {
+      for (int b = a + 1; b < kAxes; ++b) {
         try_pair(best, scouts[a], a, scouts[b], b);
       }
     }
@@ -150,12 +205,13 @@ class CellFitter {
       Stops base = part[under], overlay = part[over];
       const bool fits = share(base, overlay, opacity);
       CellFit fit;
-      const int d0 = pair.direction[under], d1 = pair.direction[over];
-      fit.fill.base = gradient_of(axes_[d0], d0, base / (1 - opacity));
-      fit.fill.overlay = gradient_of(axes_[d1], d1, overlay / opacity);
+      const RidgeAxis &lower = axes_[pair.direction[under]], &upper = axes_[pair.direction[over]];
+      fit.fill.base = gradient_of(lower, base / (1 - opacity));
+      fit.fill.overlay = gradient_of(upper, overlay / opacity);
       fit.fill.overlay_opacity = opacity;
-      fit.bytes = gradient_bytes(pair.stops[0]) + gradient_bytes(pair.stops[1]) + again_;
-      measure(fit);
+      fit.bytes = gradient_bytes(lower, pair.stops[under]) +
+                  gradient_bytes(upper, pair.stops[over]) + again_;
+      measure(fit, lower, upper);
       if (!best || fit.squared_error < best->squared_error) best = fit;
       if (fits) break;
     }
@@ -179,14 +235,14 @@ class CellFitter {
     return fits;
   }
 
-  void measure(CellFit& fit) const {
+  void measure(CellFit& fit, const RidgeAxis& lower, const RidgeAxis& upper) const {
     double sum = 0;
     const LinearGradient &base = fit.fill.base, &overlay = fit.fill.overlay;
     const double opacity = fit.fill.overlay_opacity;
     for (int i = 0; i < CellSamples::kCount; ++i) {
-      Array3d drawn = color_at(base, axes_[base.direction].place[i]);
+      Array3d drawn = color_at(base, lower.place[i]);
       if (opacity > 0) {
-        drawn += opacity * (color_at(overlay, axes_[overlay.direction].place[i]) - drawn);
+        drawn += opacity * (color_at(overlay, upper.place[i]) - drawn);
       }
       sum += s_.weight[i] * (drawn - s_.color[i]).square().sum();
     }
@@ -203,9 +259,12 @@ class CellFitter {
     return stop(at.interval) * (1 - at.fraction) + stop(at.interval + 1) * at.fraction;
   }
 
+  static constexpr int kOwn = kCommonDirections, kAxes = kOwn + 1;
+
   const CellSamples& s_;
+  const Eigen::AlignedBox2d& bounds_;
   double price_, again_, limit_;
-  std::array<RidgeAxis, LinearGradient::kDirections> axes_;
+  std::array<RidgeAxis, kAxes> axes_;  ///< the common ones, then the cell's own
   double total_ = 0, squares_ = 0;
   Array3d mean_ = Array3d::Zero();
 };

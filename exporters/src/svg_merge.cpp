@@ -40,6 +40,7 @@ CellSamples joined(const CellSamples& a, const CellSamples& b) {
   };
   take(a, from_a);
   take(b, n - from_a);
+  both.slopes = a.slopes + b.slopes;
   return both;
 }
 

@@ -1,6 +1,7 @@
 #include "svg_ridge.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,28 +27,91 @@ RidgeSolution<Size> solved(const Eigen::Matrix<double, Size, Size>& matrix,
   return solution;
 }
 
+using UnitPlaces = std::array<double, CellSamples::kCount>;
+
+Eigen::Vector2d direction_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// How far along a direction the samples lie in the unit square of the bounds.
+UnitPlaces places_along(const CellSamples& samples, const Eigen::AlignedBox2d& bounds,
+                        const Eigen::Vector2d& along) {
+  UnitPlaces places;
+  for (int i = 0; i < CellSamples::kCount; ++i) {
+    const Eigen::Vector2d unit =
+        (samples.position[i] - bounds.min()).cwiseQuotient(bounds.sizes().cwiseMax(1e-9));
+    places[i] = unit.dot(along);
+  }
+  return places;
+}
+
+/// The vector whose gradient runs along a unit vector from the place `first` to `last`. One end's
+/// coordinate is 0: any other vector between the same two lines shows the same.
+GradientVector vector_between(const Eigen::Vector2d& along, double first, double last) {
+  const int axis = std::abs(along.x()) >= std::abs(along.y()) ? 0 : 1;
+  GradientVector vector{.is_common = false};
+  vector.from[axis] = first / along[axis];
+  vector.from[1 - axis] = 0;
+  const double length = last - first;
+  vector.to = vector.from + length * along;
+  // A place far along the lines errs by the rounding over the square of the length.
+  constexpr double kError = 0.02;
+  constexpr int kMostDigits = 4;
+  double step = 1;
+  for (int digits = 0; digits < kMostDigits && step > kError * length * length; ++digits) {
+    step /= 10;
+  }
+  for (Eigen::Vector2d* end : {&vector.from, &vector.to}) {
+    *end = (*end / step).array().round() * step;
+  }
+  return vector;
+}
+
 }  // namespace
 
-RidgeAxis ridge_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, int direction) {
-  const double angle = std::numbers::pi * direction / LinearGradient::kDirections;
-  const Eigen::Vector2d along = Eigen::Vector2d(std::cos(angle), std::sin(angle));
+RidgeAxis common_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds,
+                      int direction) {
+  const Eigen::Vector2d along = direction_of(std::numbers::pi * direction / kCommonDirections);
   // Places in the unit square are measured from corner to corner along the direction.
   const double low = std::min(0.0, along.x()) + std::min(0.0, along.y());
   const double extent = std::abs(along.x()) + std::abs(along.y());
   RidgeAxis axis;
-  double least = std::numeric_limits<double>::max(), most = -least;
-  for (int i = 0; i < CellSamples::kCount; ++i) {
-    const Eigen::Vector2d unit =
-        (samples.position[i] - bounds.min()).cwiseQuotient(bounds.sizes().cwiseMax(1e-9));
-    axis.place[i] = (unit.dot(along) - low) / extent;
-    least = std::min(least, axis.place[i]);
-    most = std::max(most, axis.place[i]);
-  }
-  constexpr int n = LinearGradient::kPlaces;
-  axis.first = std::clamp(static_cast<int>(std::floor(least * n + 0.3)), 0, n - 1);
-  axis.last = std::clamp(static_cast<int>(std::ceil(most * n - 0.3)), axis.first + 1, n);
-  for (double& place : axis.place) place = (place * n - axis.first) / (axis.last - axis.first);
+  axis.place = places_along(samples, bounds, along);
+  const auto [least, most] = std::minmax_element(axis.place.begin(), axis.place.end());
+  constexpr int n = 8;  // of the extent
+  const auto eighths = [&](double place) { return (place - low) / extent * n; };
+  const int first = std::clamp(static_cast<int>(std::floor(eighths(*least) + 0.3)), 0, n - 1);
+  const int last = std::clamp(static_cast<int>(std::ceil(eighths(*most) - 0.3)), first + 1, n);
+  axis.vector = {(low + extent * first / n) * along, (low + extent * last / n) * along, true};
+  for (double& place : axis.place) place = (eighths(place) - first) / (last - first);
   return axis;
+}
+
+RidgeAxis own_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds,
+                   const AxisRange& range) {
+  const Eigen::Vector2d along = direction_of(range.angle);
+  const UnitPlaces places = places_along(samples, bounds, along);
+  const auto [least, most] = std::minmax_element(places.begin(), places.end());
+  const double extent = std::max(*most - *least, 1e-3);
+  RidgeAxis axis;
+  axis.vector =
+      vector_between(along, *least + range.before * extent, *least + (1 - range.after) * extent);
+  const Eigen::Vector2d by = axis.vector.to - axis.vector.from;
+  const double squared = by.squaredNorm();
+  if (squared > 0) {
+    axis.place = places_along(samples, bounds, by / squared);
+    const double start = axis.vector.from.dot(by) / squared;
+    for (double& place : axis.place) place -= start;
+  }
+  return axis;
+}
+
+double steepest_angle(const CellSamples& samples, const Eigen::AlignedBox2d& bounds) {
+  // A function of the picture rises along the unit square's axes as its bounds are long.
+  const Eigen::Matrix2d scale = bounds.sizes().asDiagonal();
+  const Eigen::Matrix2d tensor = samples.slopes;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(tensor);
+  const Eigen::Vector2d along = scale * eigen.eigenvectors().col(1);
+  return std::atan2(along.y(), along.x());
 }
 
 RidgeSystem::RidgeSystem(const CellSamples& samples, const RidgeAxis& axis, int stop_count)

@@ -10,12 +10,28 @@ namespace quadrille {
 /// Least squares for functions of the picture that change along one direction only, or sums of two
 /// such functions: piecewise linear between evenly spaced stops.
 
-/// A direction of gradients as the samples see it.
+/// The vector of a gradient as the samples see it.
 struct RidgeAxis {
-  int first = 0, last = 0;                          ///< see LinearGradient
+  GradientVector vector;
   std::array<double, CellSamples::kCount> place{};  ///< 0 at the first stop, 1 at the last
 };
-RidgeAxis ridge_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, int direction);
+
+/// Directions that many cells have in common: (cos, sin) of pi d / kCommonDirections in the unit
+/// square. The ends of their vectors are at multiples of an eighth of the square's extent.
+inline constexpr int kCommonDirections = 8;
+RidgeAxis common_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, int direction);
+
+/// An axis at any angle in the unit square, from the first of the samples along it to the last but
+/// for shares of that extent at its ends, where the first and the last stop's colours go on.
+struct AxisRange {
+  double angle = 0;
+  double before = 0, after = 0;
+};
+RidgeAxis own_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds,
+                   const AxisRange& range);
+
+/// The angle in the unit square at which the samples' colours change most.
+double steepest_angle(const CellSamples& samples, const Eigen::AlignedBox2d& bounds);
 
 struct RidgePlace {
   int interval;
