@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -21,8 +22,11 @@ constexpr int kScoutStops = 4, kMostOfTwo = 6;
 /// Opacities of the second gradient, the least first: the first gradient alone is then nearest to
 /// the whole, and half-covered pixels at seams err least.
 constexpr double kOpacities[] = {0.2, 0.35, 0.5, 0.65};
-/// By what factor the cost of two gradients may lie above the limit with scouts for stops.
+/// By what factor a cost may lie above the limit with scouts for stops: other numbers of stops and
+/// other directions rarely save more.
 constexpr double kHopeless = 2;
+/// In so many of the common directions, those with the best scouts, other numbers are tried.
+constexpr int kPromising = 3;
 /// What the parts of a fill take in a compressed file, in bytes.
 constexpr double kFlatBytes = 5, kGradientBytes = 11, kStopBytes = 5.7;
 constexpr double kOwnVectorBytes = 10;
@@ -67,6 +71,8 @@ class CellFitter {
     CellFit best = flat();
     // Nothing more can pay when even a perfect fill would not.
     if (best.squared_error <= price_ * (kLeastGradientBytes - kFlatBytes)) return best;
+    send_scouts();
+    if (is_hopeless()) return best;
     const CellFit one = single();
     if (one.cost(price_) < best.cost(price_)) best = one;
     if (one.squared_error <= price_ * (again_ + kLeastGradientBytes)) return best;
@@ -93,11 +99,34 @@ class CellFitter {
 
   /// True when it is better.
   bool try_ridge(Ridge& best, const RidgeAxis& axis, int stops) const {
-    const auto solution = solve_ridge(RidgeSystem(s_, axis, stops));
+    return try_ridge(best, axis, RidgeSystem(s_, axis, stops));
+  }
+  bool try_ridge(Ridge& best, const RidgeAxis& axis, const RidgeSystem& system) const {
+    const int stops = system.stops;
+    const auto solution = solve_ridge(system);
     const double cost = (squares_ - solution.explained) / 3 + price_ * gradient_bytes(axis, stops);
     if (cost >= best.cost) return false;
     best = {axis, solution, cost};
     return true;
+  }
+
+  void send_scouts() {
+    for (int d = 0; d < kCommonDirections; ++d) {
+      scouts_[d] = RidgeSystem(s_, axes_[d], kScoutStops);
+      try_ridge(single_scouts_[d], axes_[d], scouts_[d]);
+    }
+  }
+
+  /// Goes by the common directions and the sums of two that are perpendicular.
+  bool is_hopeless() const {
+    const double most = kHopeless * limit_;
+    for (const Ridge& scout : single_scouts_) {
+      if (scout.cost <= most) return false;
+    }
+    Pair best;
+    constexpr int kHalf = kCommonDirections / 2;
+    for (int d = 0; d < kHalf; ++d) try_pair(best, scouts_[d], d, scouts_[d + kHalf], d + kHalf);
+    return best.cost > most;
   }
 
   /// About the best axis of the cell's own.
@@ -140,8 +169,12 @@ class CellFitter {
   CellFit single() {
     Ridge best = own();
     axes_[kOwn] = best.axis;
-    for (int d = 0; d < kCommonDirections; ++d) {
-      for (const int stops : kCounts) try_ridge(best, axes_[d], stops);
+    std::array<int, kCommonDirections> order;
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return single_scouts_[a].cost < single_scouts_[b].cost; });
+    for (int i = 0; i < kPromising; ++i) {
+      for (const int stops : kCounts) try_ridge(best, axes_[order[i]], stops);
     }
     CellFit fit;
     fit.fill.base = gradient_of(best.axis, best.solution.stops);
@@ -165,18 +198,14 @@ class CellFitter {
     if (pair.cost < best.cost) best = pair;
   }
 
-  std::optional<CellFit> pair() const {
-    std::array<RidgeSystem, kAxes> scouts;
-    for (int d = 0; d < kAxes; ++d) {
-      scouts[d] = RidgeSystem(s_, axes_[d], kScoutStops);
-    }
+  std::optional<CellFit> pair() {
+    scouts_[kOwn] = RidgeSystem(s_, axes_[kOwn], kScoutStops);
     Pair best;
     for (int a = 0; a < kAxes; ++a) {
       for (int b = a + 1; b < kAxes; ++b) {
-        try_pair(best, scouts[a], a, scouts[b], b);
+        try_pair(best, scouts_[a], a, scouts_[b], b);
       }
     }
-    // Other numbers of stops rarely save more than this.
     if (best.cost > kHopeless * limit_) return {};
     const auto [a, b] = best.direction;
     std::vector<RidgeSystem> systems[2];
@@ -264,7 +293,9 @@ class CellFitter {
   const CellSamples& s_;
   const Eigen::AlignedBox2d& bounds_;
   double price_, again_, limit_;
-  std::array<RidgeAxis, kAxes> axes_;  ///< the common ones, then the cell's own
+  std::array<RidgeAxis, kAxes> axes_;      ///< the common ones, then the cell's own
+  std::array<RidgeSystem, kAxes> scouts_;  // kScoutStops along each axis
+  std::array<Ridge, kCommonDirections> single_scouts_;
   double total_ = 0, squares_ = 0;
   Array3d mean_ = Array3d::Zero();
 };

@@ -1,6 +1,5 @@
 #include "svg_ridge.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -15,17 +14,49 @@ namespace {
 /// can move from one to the other.
 constexpr double kSmoothing = 1e-4, kPull = 1e-7;
 
+/// Normal equations of stop colours: the lower triangle and the right-hand side.
 template <int Size>
-RidgeSolution<Size> solved(const Eigen::Matrix<double, Size, Size>& matrix,
-                           const Eigen::Matrix<double, Size, 3>& right, int n) {
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Size, Size>;
-  const Matrix block = matrix.topLeftCorner(n, n);
-  RidgeSolution<Size> solution;
-  solution.stops = block.llt().solve(right.topRows(n));
-  // For the exact minimum x of x'Ax - 2 b'x the value there is -b'x.
-  solution.explained = solution.stops.cwiseProduct(right.topRows(n)).sum();
-  return solution;
-}
+struct StopEquations {
+  int count = 0;
+  std::array<std::array<double, Size>, Size> matrix{};
+  std::array<std::array<double, 3>, Size> right{};
+
+  /// Those of one axis, whose stops follow the ones that are there.
+  void add(const RidgeSystem& system) {
+    for (int k = 0; k < system.stops; ++k, ++count) {
+      matrix[count][count] = system.diagonal[k];
+      if (k > 0) matrix[count][count - 1] = system.below[k - 1];
+      right[count] = system.right[k];
+    }
+  }
+
+  /// By Cholesky's decomposition, in place. Eigen's for sizes known at run time takes several times
+  /// as long for so few unknowns.
+  RidgeSolution<Size> solve() {
+    RidgeSolution<Size> solution;
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        double rest = matrix[i][j];
+        for (int k = 0; k < j; ++k) rest -= matrix[i][k] * matrix[j][k];
+        matrix[i][j] = i == j ? std::sqrt(rest) : rest / matrix[j][j];
+      }
+      for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < i; ++k) right[i][c] -= matrix[i][k] * right[k][c];
+        right[i][c] /= matrix[i][i];
+        // For the exact minimum x of x'Ax - 2 b'x the value there is -b'x.
+        solution.explained += right[i][c] * right[i][c];
+      }
+    }
+    solution.stops.resize(count, 3);
+    for (int i = count - 1; i >= 0; --i) {
+      for (int c = 0; c < 3; ++c) {
+        for (int k = i + 1; k < count; ++k) right[i][c] -= matrix[k][i] * right[k][c];
+        solution.stops(i, c) = right[i][c] /= matrix[i][i];
+      }
+    }
+    return solution;
+  }
+};
 
 using UnitPlaces = std::array<double, CellSamples::kCount>;
 
@@ -116,57 +147,51 @@ double steepest_angle(const CellSamples& samples, const Eigen::AlignedBox2d& bou
 
 RidgeSystem::RidgeSystem(const CellSamples& samples, const RidgeAxis& axis, int stop_count)
     : stops(stop_count) {
-  matrix.setZero();
-  right.setZero();
   double total = 0;
   for (int i = 0; i < CellSamples::kCount; ++i) {
     place[i] = ridge_place(axis.place[i], stops);
     const auto [k, f] = place[i];
-    const double w = samples.weight[i];
+    const double w = samples.weight[i], here = w * (1 - f), next = w * f;
     total += w;
-    matrix(k, k) += w * (1 - f) * (1 - f);
-    matrix(k + 1, k) += w * f * (1 - f);
-    matrix(k + 1, k + 1) += w * f * f;
-    right.row(k) += (w * (1 - f)) * samples.color[i].matrix().transpose();
-    right.row(k + 1) += (w * f) * samples.color[i].matrix().transpose();
+    diagonal[k] += here * (1 - f);
+    below[k] += here * f;
+    diagonal[k + 1] += next * f;
+    for (int c = 0; c < 3; ++c) {
+      right[k][c] += here * samples.color[i][c];
+      right[k + 1][c] += next * samples.color[i][c];
+    }
   }
   const double smoothing = kSmoothing * total / stops + 1e-9;
   for (int k = 0; k + 1 < stops; ++k) {
-    matrix(k, k) += smoothing;
-    matrix(k + 1, k + 1) += smoothing;
-    matrix(k + 1, k) -= smoothing;
+    diagonal[k] += smoothing;
+    diagonal[k + 1] += smoothing;
+    below[k] -= smoothing;
   }
-  for (int k = 0; k < stops; ++k) matrix(k, k) += kPull * total + 1e-12;
-  for (int k = 0; k + 1 < stops; ++k) matrix(k, k + 1) = matrix(k + 1, k);
+  for (int k = 0; k < stops; ++k) diagonal[k] += kPull * total + 1e-12;
 }
 
 RidgeSolution<RidgeSystem::kSize> solve_ridge(const RidgeSystem& system) {
-  return solved<RidgeSystem::kSize>(system.matrix, system.right, system.stops);
+  StopEquations<RidgeSystem::kSize> equations;
+  equations.add(system);
+  return equations.solve();
 }
 
 RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const CellSamples& samples, const RidgeSystem& a,
                                                    const RidgeSystem& b) {
-  constexpr int kSize = 2 * RidgeSystem::kSize;
-  const int m = a.stops, n = b.stops;
-  Eigen::Matrix<double, kSize, kSize> matrix;
-  Eigen::Matrix<double, kSize, 3> right;
-  matrix.topLeftCorner(m, m) = a.matrix.topLeftCorner(m, m);
-  matrix.block(m, m, n, n) = b.matrix.topLeftCorner(n, n);
-  auto between = matrix.block(m, 0, n, m);
-  between.setZero();
+  StopEquations<2 * RidgeSystem::kSize> equations;
+  equations.add(a);
+  equations.add(b);
   for (int i = 0; i < CellSamples::kCount; ++i) {
     const auto [j, f] = a.place[i];
     const auto [k, g] = b.place[i];
     const double w = samples.weight[i];
-    between(k, j) += w * (1 - f) * (1 - g);
-    between(k, j + 1) += w * f * (1 - g);
-    between(k + 1, j) += w * (1 - f) * g;
-    between(k + 1, j + 1) += w * f * g;
+    auto &first = equations.matrix[a.stops + k], &second = equations.matrix[a.stops + k + 1];
+    first[j] += w * (1 - f) * (1 - g);
+    first[j + 1] += w * f * (1 - g);
+    second[j] += w * (1 - f) * g;
+    second[j + 1] += w * f * g;
   }
-  matrix.block(0, m, m, n) = between.transpose();
-  right.topRows(m) = a.right.topRows(m);
-  right.middleRows(m, n) = b.right.topRows(n);
-  return solved<kSize>(matrix, right, m + n);
+  return equations.solve();
 }
 
 }  // namespace quadrille

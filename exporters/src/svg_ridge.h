@@ -47,8 +47,8 @@ inline RidgePlace ridge_place(double place, int stops) {
 struct RidgeSystem {
   static constexpr int kSize = LinearGradient::kMaxStops;
   int stops = 0;
-  Eigen::Matrix<double, kSize, kSize> matrix;  ///< the top left corner counts
-  Eigen::Matrix<double, kSize, 3> right;
+  std::array<double, kSize> diagonal{}, below{};  ///< of the matrix, which is tridiagonal
+  std::array<std::array<double, 3>, kSize> right{};
   std::array<RidgePlace, CellSamples::kCount> place;
 
   RidgeSystem() = default;
