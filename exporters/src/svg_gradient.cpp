@@ -25,16 +25,15 @@ constexpr double kOpacities[] = {0.2, 0.35, 0.5, 0.65};
 /// By what factor a cost may lie above the limit with scouts for stops: other numbers of stops and
 /// other directions rarely save more.
 constexpr double kHopeless = 2;
-/// In so many of the common directions, those with the best scouts, other numbers are tried.
-constexpr int kPromising = 3;
+/// In so many of the common directions, those with the best scouts, other numbers are tried; the
+/// sums of two have one of these or the cell's own direction.
+constexpr int kPromising = 2;
 /// What the parts of a fill take in a compressed file, in bytes.
 constexpr double kFlatBytes = 5, kGradientBytes = 11, kStopBytes = 5.7;
 constexpr double kOwnVectorBytes = 10;
 /// Angles from the steepest one at which an own vector is tried as well, in turns halved.
 constexpr double kFirstTurn = std::numbers::pi / 24;
 constexpr int kTurns = 3;
-/// Steps by which its range is made shorter at its ends.
-constexpr double kShortening = 0.125;
 
 double gradient_bytes(const RidgeAxis& axis, int stops) {
   return kGradientBytes + (axis.vector.is_common ? 0 : kOwnVectorBytes) + kStopBytes * stops;
@@ -57,9 +56,14 @@ class CellFitter {
  public:
   CellFitter(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double price,
              double again, double limit)
-      : s_(samples), bounds_(bounds), price_(price), again_(again), limit_(limit) {
+      : s_(samples),
+        colors_(samples),
+        bounds_(bounds),
+        price_(price),
+        again_(again),
+        limit_(limit) {
     for (int d = 0; d < kCommonDirections; ++d) axes_[d] = common_axis(samples, bounds, d);
-    for (int i = 0; i < CellSamples::kCount; ++i) {
+    for (int i = 0; i < s_.count; ++i) {
       total_ += s_.weight[i];
       mean_ += s_.weight[i] * s_.color[i];
       squares_ += s_.weight[i] * s_.color[i].square().sum();
@@ -99,7 +103,7 @@ class CellFitter {
 
   /// True when it is better.
   bool try_ridge(Ridge& best, const RidgeAxis& axis, int stops) const {
-    return try_ridge(best, axis, RidgeSystem(s_, axis, stops));
+    return try_ridge(best, axis, RidgeSystem(colors_, axis, stops));
   }
   bool try_ridge(Ridge& best, const RidgeAxis& axis, const RidgeSystem& system) const {
     const int stops = system.stops;
@@ -112,9 +116,12 @@ class CellFitter {
 
   void send_scouts() {
     for (int d = 0; d < kCommonDirections; ++d) {
-      scouts_[d] = RidgeSystem(s_, axes_[d], kScoutStops);
+      scouts_[d] = RidgeSystem(colors_, axes_[d], kScoutStops);
       try_ridge(single_scouts_[d], axes_[d], scouts_[d]);
     }
+    std::iota(by_scouts_.begin(), by_scouts_.end(), 0);
+    std::sort(by_scouts_.begin(), by_scouts_.end(),
+              [&](int a, int b) { return single_scouts_[a].cost < single_scouts_[b].cost; });
   }
 
   /// Goes by the common directions and the sums of two that are perpendicular.
@@ -132,49 +139,25 @@ class CellFitter {
   /// About the best axis of the cell's own.
   Ridge own() const {
     Ridge best;
-    AxisRange range{.angle = steepest_angle(s_, bounds_)};
-    const RidgeAxis steepest = own_axis(s_, bounds_, range);
+    double angle = steepest_angle(s_, bounds_);
+    const RidgeAxis steepest = own_axis(s_, bounds_, angle);
     for (const int stops : kCounts) try_ridge(best, steepest, stops);
     double turn = kFirstTurn;
     for (int i = 0; i < kTurns; ++i, turn *= 0.5) {
-      AxisRange left = range, right = range;
-      left.angle -= turn;
-      right.angle += turn;
-      if (try_ridge(best, own_axis(s_, bounds_, left), best.stops())) {
-        range = left;
-      } else if (try_ridge(best, own_axis(s_, bounds_, right), best.stops())) {
-        range = right;
+      for (const double turned : {angle - turn, angle + turn}) {
+        if (!try_ridge(best, own_axis(s_, bounds_, turned), best.stops())) continue;
+        angle = turned;
+        break;
       }
     }
-    for (const int stops : {2, 3}) shorten(best, range, stops);
     return best;
-  }
-
-  /// Tries shorter ranges as long as they get better: few stops are enough for a ramp between two
-  /// constant colours.
-  void shorten(Ridge& best, AxisRange range, int stops) const {
-    Ridge here;
-    try_ridge(here, own_axis(s_, bounds_, range), stops);
-    for (double AxisRange::*end : {&AxisRange::before, &AxisRange::after}) {
-      while (range.before + range.after + kShortening < 1) {
-        AxisRange shorter = range;
-        shorter.*end += kShortening;
-        if (!try_ridge(here, own_axis(s_, bounds_, shorter), stops)) break;
-        range = shorter;
-      }
-    }
-    if (here.cost < best.cost) best = here;
   }
 
   CellFit single() {
     Ridge best = own();
     axes_[kOwn] = best.axis;
-    std::array<int, kCommonDirections> order;
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(),
-              [&](int a, int b) { return single_scouts_[a].cost < single_scouts_[b].cost; });
     for (int i = 0; i < kPromising; ++i) {
-      for (const int stops : kCounts) try_ridge(best, axes_[order[i]], stops);
+      for (const int stops : kCounts) try_ridge(best, axes_[by_scouts_[i]], stops);
     }
     CellFit fit;
     fit.fill.base = gradient_of(best.axis, best.solution.stops);
@@ -191,7 +174,7 @@ class CellFitter {
   };
 
   void try_pair(Pair& best, const RidgeSystem& a, int da, const RidgeSystem& b, int db) const {
-    Pair pair{{da, db}, {a.stops, b.stops}, 0, solve_ridges(s_, a, b)};
+    Pair pair{{da, db}, {a.stops, b.stops}, 0, solve_ridges(colors_, a, b)};
     pair.cost =
         (squares_ - pair.solution.explained) / 3 +
         price_ * (gradient_bytes(axes_[da], a.stops) + gradient_bytes(axes_[db], b.stops) + again_);
@@ -199,23 +182,25 @@ class CellFitter {
   }
 
   std::optional<CellFit> pair() {
-    scouts_[kOwn] = RidgeSystem(s_, axes_[kOwn], kScoutStops);
+    scouts_[kOwn] = RidgeSystem(colors_, axes_[kOwn], kScoutStops);
     Pair best;
-    for (int a = 0; a < kAxes; ++a) {
-      for (int b = a + 1; b < kAxes; ++b) {
+    for (int i = 0; i < kPromising + 1; ++i) {
+      const int a = i == 0 ? kOwn : by_scouts_[i - 1];
+      for (int j = i; j < kCommonDirections; ++j) {
+        const int b = by_scouts_[j];
         try_pair(best, scouts_[a], a, scouts_[b], b);
       }
     }
     if (best.cost > kHopeless * limit_) return {};
-    const auto [a, b] = best.direction;
-    std::vector<RidgeSystem> systems[2];
-    for (const int stops : kCounts) {
-      if (stops > kMostOfTwo) continue;
-      systems[0].emplace_back(s_, axes_[a], stops);
-      systems[1].emplace_back(s_, axes_[b], stops);
-    }
-    for (const RidgeSystem& system_a : systems[0]) {
-      for (const RidgeSystem& system_b : systems[1]) try_pair(best, system_a, a, system_b, b);
+    for (int side = 0; side < 2; ++side) {
+      const auto [a, b] = best.direction;
+      const int kept = best.stops[1 - side];
+      const RidgeSystem other(colors_, axes_[side == 0 ? b : a], kept);
+      for (const int stops : kCounts) {
+        if (stops > kMostOfTwo || stops == kScoutStops) continue;
+        const RidgeSystem tried(colors_, axes_[side == 0 ? a : b], stops);
+        side == 0 ? try_pair(best, tried, a, other, b) : try_pair(best, other, a, tried, b);
+      }
     }
     return layered(best);
   }
@@ -268,7 +253,7 @@ class CellFitter {
     double sum = 0;
     const LinearGradient &base = fit.fill.base, &overlay = fit.fill.overlay;
     const double opacity = fit.fill.overlay_opacity;
-    for (int i = 0; i < CellSamples::kCount; ++i) {
+    for (int i = 0; i < s_.count; ++i) {
       Array3d drawn = color_at(base, lower.place[i]);
       if (opacity > 0) {
         drawn += opacity * (color_at(overlay, upper.place[i]) - drawn);
@@ -291,11 +276,13 @@ class CellFitter {
   static constexpr int kOwn = kCommonDirections, kAxes = kOwn + 1;
 
   const CellSamples& s_;
+  WeightedColors colors_;
   const Eigen::AlignedBox2d& bounds_;
   double price_, again_, limit_;
   std::array<RidgeAxis, kAxes> axes_;      ///< the common ones, then the cell's own
   std::array<RidgeSystem, kAxes> scouts_;  // kScoutStops along each axis
   std::array<Ridge, kCommonDirections> single_scouts_;
+  std::array<int, kCommonDirections> by_scouts_{};  // the best first
   double total_ = 0, squares_ = 0;
   Array3d mean_ = Array3d::Zero();
 };

@@ -38,12 +38,13 @@ struct CellFill {
 
 /// Colours of a cell on a grid of its parameters, the borders included.
 struct CellSamples {
-  static constexpr int kSide = 10;
-  static constexpr int kCount = kSide * kSide;
+  static constexpr int kMostAlong = 10;  ///< a side of the grid
+  static constexpr int kMost = kMostAlong * kMostAlong;
 
-  std::array<Eigen::Vector2d, kCount> position;
-  std::array<Eigen::Array3d, kCount> color;  ///< 0 to 255
-  std::array<double, kCount> weight;  ///< square pixels that the sample stands for, times its alpha
+  int count = 0;  ///< of those that follow
+  std::array<Eigen::Vector2d, kMost> position;
+  std::array<Eigen::Array3d, kMost> color;  ///< 0 to 255
+  std::array<double, kMost> weight;  ///< square pixels that the sample stands for, times its alpha
   /// The structure tensor: weighted sum of g g' over the samples and channels, g the gradient of
   /// the colour in the picture.
   Eigen::Matrix2d slopes = Eigen::Matrix2d::Zero();

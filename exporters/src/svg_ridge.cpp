@@ -24,9 +24,9 @@ struct StopEquations {
   /// Those of one axis, whose stops follow the ones that are there.
   void add(const RidgeSystem& system) {
     for (int k = 0; k < system.stops; ++k, ++count) {
-      matrix[count][count] = system.diagonal[k];
+      matrix[count][count] = system.right_and_diagonal[k][3];
       if (k > 0) matrix[count][count - 1] = system.below[k - 1];
-      right[count] = system.right[k];
+      for (int c = 0; c < 3; ++c) right[count][c] = system.right_and_diagonal[k][c];
     }
   }
 
@@ -58,15 +58,15 @@ struct StopEquations {
   }
 };
 
-using UnitPlaces = std::array<double, CellSamples::kCount>;
+using UnitPlaces = std::array<double, CellSamples::kMost>;
 
 Eigen::Vector2d direction_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// How far along a direction the samples lie in the unit square of the bounds.
 UnitPlaces places_along(const CellSamples& samples, const Eigen::AlignedBox2d& bounds,
                         const Eigen::Vector2d& along) {
-  UnitPlaces places;
-  for (int i = 0; i < CellSamples::kCount; ++i) {
+  UnitPlaces places{};
+  for (int i = 0; i < samples.count; ++i) {
     const Eigen::Vector2d unit =
         (samples.position[i] - bounds.min()).cwiseQuotient(bounds.sizes().cwiseMax(1e-9));
     places[i] = unit.dot(along);
@@ -106,7 +106,8 @@ RidgeAxis common_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bou
   const double extent = std::abs(along.x()) + std::abs(along.y());
   RidgeAxis axis;
   axis.place = places_along(samples, bounds, along);
-  const auto [least, most] = std::minmax_element(axis.place.begin(), axis.place.end());
+  const auto [least, most] =
+      std::minmax_element(axis.place.begin(), axis.place.begin() + samples.count);
   constexpr int n = 8;  // of the extent
   const auto eighths = [&](double place) { return (place - low) / extent * n; };
   const int first = std::clamp(static_cast<int>(std::floor(eighths(*least) + 0.3)), 0, n - 1);
@@ -116,15 +117,12 @@ RidgeAxis common_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bou
   return axis;
 }
 
-RidgeAxis own_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds,
-                   const AxisRange& range) {
-  const Eigen::Vector2d along = direction_of(range.angle);
+RidgeAxis own_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double angle) {
+  const Eigen::Vector2d along = direction_of(angle);
   const UnitPlaces places = places_along(samples, bounds, along);
-  const auto [least, most] = std::minmax_element(places.begin(), places.end());
-  const double extent = std::max(*most - *least, 1e-3);
+  const auto [least, most] = std::minmax_element(places.begin(), places.begin() + samples.count);
   RidgeAxis axis;
-  axis.vector =
-      vector_between(along, *least + range.before * extent, *least + (1 - range.after) * extent);
+  axis.vector = vector_between(along, *least, std::max(*most, *least + 1e-3));
   const Eigen::Vector2d by = axis.vector.to - axis.vector.from;
   const double squared = by.squaredNorm();
   if (squared > 0) {
@@ -145,29 +143,44 @@ double steepest_angle(const CellSamples& samples, const Eigen::AlignedBox2d& bou
   return std::atan2(along.y(), along.x());
 }
 
-RidgeSystem::RidgeSystem(const CellSamples& samples, const RidgeAxis& axis, int stop_count)
+WeightedColors::WeightedColors(const CellSamples& samples) : count(samples.count) {
+  for (int i = 0; i < count; ++i) {
+    sample[i].head<3>() = samples.color[i] * samples.weight[i];
+    sample[i][3] = samples.weight[i];
+  }
+}
+
+RidgeSystem::RidgeSystem(const WeightedColors& colors, const RidgeAxis& axis, int stop_count)
     : stops(stop_count) {
-  double total = 0;
-  for (int i = 0; i < CellSamples::kCount; ++i) {
+  // Two sums each, since one addition to a sum waits for the one before.
+  std::array<std::array<Eigen::Array4d, 2>, kSize> sums;
+  std::array<std::array<double, 2>, kSize> between{};
+  for (auto& sum : sums) sum.fill(Eigen::Array4d::Zero());
+  for (int i = 0; i < colors.count; ++i) {
     place[i] = ridge_place(axis.place[i], stops);
     const auto [k, f] = place[i];
-    const double w = samples.weight[i], here = w * (1 - f), next = w * f;
-    total += w;
-    diagonal[k] += here * (1 - f);
-    below[k] += here * f;
-    diagonal[k + 1] += next * f;
-    for (int c = 0; c < 3; ++c) {
-      right[k][c] += here * samples.color[i][c];
-      right[k + 1][c] += next * samples.color[i][c];
-    }
+    const Eigen::Array4d next = f * colors.sample[i];
+    sums[k][i & 1] += colors.sample[i] - next;
+    sums[k + 1][i & 1] += next;
+    between[k][i & 1] += next[3] * (1 - f);
+  }
+  double total = 0;
+  for (int k = 0; k < stops; ++k) {
+    right_and_diagonal[k] = sums[k][0] + sums[k][1];
+    below[k] = between[k][0] + between[k][1];
+    total += right_and_diagonal[k][3];
+  }
+  // The squares of the factors f and 1 - f are what their products leave of them.
+  for (int k = 0; k < stops; ++k) {
+    right_and_diagonal[k][3] -= below[k] + (k > 0 ? below[k - 1] : 0);
   }
   const double smoothing = kSmoothing * total / stops + 1e-9;
   for (int k = 0; k + 1 < stops; ++k) {
-    diagonal[k] += smoothing;
-    diagonal[k + 1] += smoothing;
+    right_and_diagonal[k][3] += smoothing;
+    right_and_diagonal[k + 1][3] += smoothing;
     below[k] -= smoothing;
   }
-  for (int k = 0; k < stops; ++k) diagonal[k] += kPull * total + 1e-12;
+  for (int k = 0; k < stops; ++k) right_and_diagonal[k][3] += kPull * total + 1e-12;
 }
 
 RidgeSolution<RidgeSystem::kSize> solve_ridge(const RidgeSystem& system) {
@@ -176,15 +189,15 @@ RidgeSolution<RidgeSystem::kSize> solve_ridge(const RidgeSystem& system) {
   return equations.solve();
 }
 
-RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const CellSamples& samples, const RidgeSystem& a,
-                                                   const RidgeSystem& b) {
+RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const WeightedColors& colors,
+                                                   const RidgeSystem& a, const RidgeSystem& b) {
   StopEquations<2 * RidgeSystem::kSize> equations;
   equations.add(a);
   equations.add(b);
-  for (int i = 0; i < CellSamples::kCount; ++i) {
+  for (int i = 0; i < colors.count; ++i) {
     const auto [j, f] = a.place[i];
     const auto [k, g] = b.place[i];
-    const double w = samples.weight[i];
+    const double w = colors.sample[i][3];
     auto &first = equations.matrix[a.stops + k], &second = equations.matrix[a.stops + k + 1];
     first[j] += w * (1 - f) * (1 - g);
     first[j + 1] += w * f * (1 - g);
