@@ -1,7 +1,9 @@
 #include <fmt/core.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "command.h"
 #include "common_options.h"
@@ -26,8 +28,9 @@ void print(const ImageDifference& difference, bool json) {
                                            {"max_error", difference.max_error}};
     fmt::print("{}\n", values.dump());
   } else {
-    fmt::print("MAE  {:.4f}\nPSNR {:.3f} dB\nSSIM {:.5f}\n", difference.mae, difference.psnr,
-               difference.ssim);
+    const std::string ssim = std::isnan(difference.ssim) ? "undefined below 7 x 7 pixels"
+                                                         : fmt::format("{:.5f}", difference.ssim);
+    fmt::print("MAE  {:.4f}\nPSNR {:.3f} dB\nSSIM {}\n", difference.mae, difference.psnr, ssim);
   }
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "command.h"
@@ -91,9 +93,11 @@ int run_vectorize(const VectorizeRequest& request) {
 
   if (request.report.empty() && request.run.verbosity() != Verbosity::verbose) return kSuccess;
   const Measurement measurement = measure(result.image, picture, observer);
-  observer.tell(fmt::format("{} quads, MAE {:.2f}, PSNR {:.2f} dB, SSIM {:.3f}",
-                            result.report.quads, measurement.difference.mae,
-                            measurement.difference.psnr, measurement.difference.ssim));
+  const ImageDifference& difference = measurement.difference;
+  const std::string ssim =
+      std::isnan(difference.ssim) ? "" : fmt::format(", SSIM {:.3f}", difference.ssim);
+  observer.tell(fmt::format("{} quads, MAE {:.2f}, PSNR {:.2f} dB{}", result.report.quads,
+                            difference.mae, difference.psnr, ssim));
   if (!request.report.empty()) {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     write_report({request.input, request.mesh, chosen, result.report, bounded.rounds,

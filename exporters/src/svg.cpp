@@ -36,7 +36,7 @@ LevelDetail detail_of(SvgLevel level) {
     case SvgLevel::inkscape:
       break;
   }
-  return {1.25, 2};
+  return {1.32, 2};
 }
 
 class SvgFile {

@@ -21,8 +21,16 @@ constexpr double kClippedBleed = 1.5;
 constexpr double kLeastSlope = 0.5, kStraight = 0.95, kSpike = -0.3, kLeastRatio = 0.7;
 /// How often a bleed is halved.
 constexpr int kMostHalvings = 4;
+/// The error that rounded seams may leave, in 8-bit steps, and bleeds as a share of their length.
+constexpr double kSlopeError = 8, kBleedShare = 0.25;
+/// How far before its ends a bleed ends beside what has none, where masks are painted, in pixels.
+constexpr double kInset = 0.5;
+/// How many thin patches a bleed crosses at most.
+constexpr int kMostCrossed = 4;
 /// Holes with more cells than this are kept.
 constexpr std::size_t kMostHoleCells = 64;
+
+Vector2d point_at(const Geometry& g, const Vector2d& uv) { return g.at(uv.x(), uv.y()); }
 
 class Outliner {
  public:
@@ -118,8 +126,11 @@ class Outliner {
       const bool bleeds = has_bleed(s);
       const auto points = mesh_.points(s);
       for (int j = 1; j < static_cast<int>(points.size()); ++j) {
-        simplifier.add(bleeds ? Vector2d(points[j] + step_beyond(s, mesh_.parameters(s, j)))
-                              : points[j]);
+        if (bleeds) {
+          add_bleed(simplifier, points[j], step_beyond(s, mesh_.parameters(s, j)));
+        } else {
+          simplifier.add(points[j], tolerance_for(mesh_.slope(s, j)));
+        }
       }
     }
     return simplifier.outline();
@@ -130,21 +141,44 @@ class Outliner {
   void join(OutlineSimplifier& to, int before, int after) const {
     const Vector2d corner = start(after);
     const bool ends = has_bleed(before), starts = has_bleed(after);
-    if (!ends && !starts) return add(to, corner, after);
     const Bleed end = ends ? bleed_at(before, true) : Bleed{};
     const Bleed begin = starts ? bleed_at(after, false) : Bleed{};
     if (ends && starts) {
-      if (const auto both = meeting(end, begin, before, after)) return to.add(corner + *both);
-      to.add(corner + end.step);
+      if (const auto both = meeting(end, begin, before, after)) return add_bleed(to, corner, *both);
+      add_bleed(to, corner, end.step);
       to.add(corner);
-      to.add(corner + begin.step);
-    } else if (ends) {
-      to.add(corner + along(-direction_at_start(after), end));
-      add(to, corner, after);
-    } else {
-      add(to, corner, after);
-      to.add(corner + along(direction_at_end(before), begin));
+      return add_bleed(to, corner, begin.step);
     }
+    if (ends) {
+      add_end(to, corner, along(-direction_at_start(after), end), -direction_at_end(before));
+    }
+    // The start of an exact side is added with it.
+    if (beyond(after) != CellMesh::Beyond::nothing) {
+      const double slope =
+          std::max(ends ? 0 : slope_at_end(before), starts ? 0 : mesh_.slope(after, 0));
+      to.add(corner, tolerance_for(slope));
+    }
+    if (starts) {
+      add_end(to, corner, along(direction_at_end(before), begin), direction_at_start(after));
+    }
+  }
+
+  /// Adds the end of a bleed; `inward` is the direction of its side away from the end. The smallest
+  /// overlap with what is painted earlier shows in a mask, whose values jump where colours do not.
+  void add_end(OutlineSimplifier& to, const Vector2d& corner, const Vector2d& step,
+               const Vector2d& inward) const {
+    if (mesh_.paint() == CellPaint::color) return add_bleed(to, corner, step);
+    const double beyond = std::max(0.0, kInset - step.dot(inward));
+    to.add(corner + step + beyond * inward, 0);
+  }
+
+  static double tolerance_for(double slope) { return kSlopeError / std::max(slope, 1e-9); }
+  double slope_at_end(int s) const {
+    return mesh_.slope(s, static_cast<int>(mesh_.points(s).size()) - 1);
+  }
+  /// Where there is little room for it, a bleed must not be rounded much.
+  static void add_bleed(OutlineSimplifier& to, const Vector2d& point, const Vector2d& step) {
+    to.add(point + step, kBleedShare * step.norm());
   }
 
   /// The bleed of a side at one of its ends.
@@ -162,11 +196,6 @@ class Outliner {
     bleed.depth = bleed.step.dot(bleed.normal);
     if (bleed.depth < 0) bleed.normal = -bleed.normal, bleed.depth = -bleed.depth;
     return bleed;
-  }
-
-  /// The start of an exact side is added with it.
-  void add(OutlineSimplifier& to, const Vector2d& corner, int after) const {
-    if (beyond(after) != CellMesh::Beyond::nothing) to.add(corner);
   }
 
   /// The step in the given direction that leads across a side as far as its bleed, or the bleed
@@ -240,7 +269,7 @@ class Outliner {
   Vector2d step_beyond(int s, const Vector2d& uv) const {
     const CellMesh::Side& side = mesh_.side(s);
     const Geometry& g = mesh_.geometry(side.cell);
-    const Vector2d point = g.at(uv.x(), uv.y());
+    const Vector2d point = point_at(g, uv);
     const bool is_clip = beyond(s) == CellMesh::Beyond::clip;
     double bleed = is_clip ? kClippedBleed * bleed_ : bleed_;
     const int q = mesh_.quad(side.cell), twin = layer_.mesh().twin(4 * q + side.k);
@@ -250,8 +279,7 @@ class Outliner {
       const auto [quad, at] = side.on_border ? across_border(side, uv, twin, bleed)
                                              : std::pair(q, across_line(g, side, uv, bleed));
       const int cell = mesh_.cell_with(quad, at);
-      const Geometry& its = cell >= 0 ? mesh_.geometry(cell) : neighbor(quad);
-      target = its.at(at.x(), at.y());
+      target = point_at(geometry(quad), at);
       if (is_clip || cell < 0 || group_.holds(cell) || group_.is_later(cell)) break;
     }
     return target - point;
@@ -268,16 +296,37 @@ class Outliner {
     return target;
   }
 
-  /// The patch beyond a side that lies on the border of its own, and parameters there.
+  /// The patch beyond a side that lies on the border of its own, and parameters there. Thin patches
+  /// are crossed as long as they are painted later.
   std::pair<int, Vector2d> across_border(const CellMesh::Side& side, const Vector2d& uv, int twin,
                                          double bleed) const {
     const double along = side.k == 1 || side.k == 3 ? uv.y() : uv.x();
     const double place = side.k < 2 ? 1 - along : along;
-    const int quad = QuadMesh::quad_of(twin), k = QuadMesh::corner_of(twin);
-    const int cell = mesh_.cell_at(twin);
-    const Geometry& its = cell >= 0 ? mesh_.geometry(cell) : neighbor(quad);
-    const double depth = parameter_step(its, on_side(k, place), k == 1 || k == 3, bleed);
-    return {quad, on_side(k, place, depth)};
+    const QuadMesh& quads = layer_.mesh();
+    const int own = mesh_.quad(side.cell);
+    for (int crossed = 0, h = twin;; ++crossed) {
+      const int quad = QuadMesh::quad_of(h), k = QuadMesh::corner_of(h);
+      const Geometry& its = geometry(quad);
+      const double depth = parameter_step(its, on_side(k, place), k == 1 || k == 3, bleed);
+      const int far = 4 * quad + ((k + 2) & 3), next = quads.twin(far);
+      const double width =
+          (point_at(its, on_side(k, place, 1)) - point_at(its, on_side(k, place))).norm();
+      const bool is_thin =
+          bleed > 0.5 * width && crossed < kMostCrossed && next >= 0 &&
+          !quads.is_tear(quads.edge(far)) && is_covered(own, quad, on_side(k, place, 0.5)) &&
+          is_covered(own, QuadMesh::quad_of(next), on_side(QuadMesh::corner_of(next), place));
+      if (!is_thin) return {quad, on_side(k, place, depth)};
+      if (bleed <= width) return {quad, on_side(k, place, bleed / width)};
+      bleed -= width;
+      h = next;
+    }
+  }
+
+  /// True when the group, or what is painted later, is at these parameters.
+  bool is_covered(int own, int quad, const Vector2d& uv) const {
+    const int cell = mesh_.cell_with(quad, uv);
+    return cell < 0 ? layer_.is_painted_later(own, quad)
+                    : group_.holds(cell) || group_.is_later(cell);
   }
 
   /// The same beyond the border of the mesh.
@@ -291,8 +340,8 @@ class Outliner {
     return orientation * bleed * Vector2d(along.y(), -along.x()).normalized();
   }
 
-  /// Geometry of a patch that has no cells in the mesh.
-  const Geometry& neighbor(int quad) const {
+  const Geometry& geometry(int quad) const {
+    if (const Geometry* known = mesh_.find_geometry(quad)) return *known;
     if (quad != neighbor_) neighbor_geometry_ = layer_.geometry(neighbor_ = quad);
     return neighbor_geometry_;
   }

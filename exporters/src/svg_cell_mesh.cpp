@@ -1,10 +1,12 @@
 #include "svg_cell_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
 #include "patch_sides.h"
+#include "svg_slope.h"
 
 namespace quadrille {
 namespace {
@@ -42,13 +44,14 @@ void sort_unique(std::vector<double>& values) {
 
 }  // namespace
 
-CellMesh::CellMesh(const SvgLayer& layer, const std::vector<PatchCell>& cells)
-    : layer_(layer), cells_(cells) {
+CellMesh::CellMesh(const SvgLayer& layer, const std::vector<PatchCell>& cells, CellPaint paint)
+    : layer_(layer), paint_(paint), cells_(cells) {
   for (int c = 0; c < static_cast<int>(cells.size()); ++c) {
     const auto [entry, is_new] = patches_.try_emplace(cells[c].quad);
     Patch& patch = entry->second;
     if (is_new) {
       patch.geometry = layer.geometry(cells[c].quad);
+      patch.color = layer.color(cells[c].quad);
       patch.bezier = to_bezier(patch.geometry);
       patch.first_cell = c;
     }
@@ -155,7 +158,20 @@ void CellMesh::add_side(int cell, int k, bool on_border, const Vector2d& from, c
   for (int i = 0; i < side.point_count; ++i) {
     const Vector2d uv = parameters(s, i);
     points_.push_back(geometry(cell).at(uv.x(), uv.y()));
+    slopes_.push_back(slope_across(patches_.at(quad(cell)), k, uv));
   }
+}
+
+double CellMesh::slope_across(const Patch& patch, int k, const Vector2d& uv) const {
+  const Vector2d along = is_along_u(k) ? patch.geometry.derivative_u(uv.x(), uv.y())
+                                       : patch.geometry.derivative_v(uv.x(), uv.y());
+  const double length = along.norm();
+  if (length < 1e-9) return 0;
+  const Vector2d across = Vector2d(along.y(), -along.x()) / length;
+  const auto slopes = paint_slopes(patch.geometry, patch.color, paint_, uv.x(), uv.y());
+  const double alpha = patch.color.at(uv.x(), uv.y())[3];
+  const double weight = paint_ == CellPaint::alpha ? 1 : std::clamp(alpha, 0.0, 1.0);
+  return weight * std::sqrt((slopes * across).squaredNorm() / 3);
 }
 
 void CellMesh::link_twins() {
@@ -191,9 +207,17 @@ void CellMesh::link_twins() {
   }
 }
 
+/// True where nothing is painted beyond: the mask of translucent colours ends there.
+bool CellMesh::is_outline(int h) const {
+  const int twin = layer_.mesh().twin(h);
+  return twin < 0 || layer_.opacity(QuadMesh::quad_of(twin)) == PatchOpacity::transparent;
+}
+
 CellMesh::Beyond CellMesh::beyond(int quad, int k) const {
   const int h = 4 * quad + k;
-  if (layer_.is_opaque(quad) && layer_.is_clipped(h)) return Beyond::clip;
+  const bool is_clipped =
+      layer_.is_opaque(quad) ? layer_.is_clipped(h) : paint_ == CellPaint::color && is_outline(h);
+  if (is_clipped) return Beyond::clip;
   if (layer_.is_painted_later(h)) return Beyond::later;
   const bool is_smooth = !layer_.is_border(h) && !layer_.mesh().is_tear(layer_.mesh().edge(h));
   return is_smooth ? Beyond::seam : Beyond::nothing;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "subdivision.h"
+#include "svg_detail.h"
 #include "svg_layer.h"
 
 namespace quadrille {
@@ -40,9 +41,11 @@ class CellMesh {
   };
 
   /// The cells of a patch follow each other and cover it. Keeps a reference to the layer.
-  CellMesh(const SvgLayer& layer, const std::vector<PatchCell>& cells);
+  CellMesh(const SvgLayer& layer, const std::vector<PatchCell>& cells,
+           CellPaint paint = CellPaint::color);
 
   const SvgLayer& layer() const { return layer_; }
+  CellPaint paint() const { return paint_; }
   int cell_count() const { return static_cast<int>(side_begin_.size()) - 1; }
   const std::vector<Side>& sides() const { return sides_; }
   const Side& side(int s) const { return sides_[s]; }
@@ -55,6 +58,9 @@ class CellMesh {
     return {points_.data() + sides_[s].first_point,
             static_cast<std::size_t>(sides_[s].point_count)};
   }
+  /// By how much the paint changes across the side at its i-th point: 8-bit steps per pixel, root
+  /// mean square of the channels, by its alpha.
+  double slope(int s, int i) const { return slopes_[sides_[s].first_point + i]; }
   /// Parameters of the side's i-th point.
   Eigen::Vector2d parameters(int s, int i) const {
     const Side& side = sides_[s];
@@ -62,6 +68,11 @@ class CellMesh {
   }
   const BicubicHermite<Eigen::Vector2d>& geometry(int cell) const {
     return patches_.at(quad(cell)).geometry;
+  }
+  /// Of a patch, or null when it is none of these.
+  const BicubicHermite<Eigen::Vector2d>* find_geometry(int quad) const {
+    const auto found = patches_.find(quad);
+    return found == patches_.end() ? nullptr : &found->second.geometry;
   }
   /// The cell at the origin of half-edge h in its quad, or -1 when the quad is none of these.
   int cell_at(int h) const;
@@ -71,6 +82,7 @@ class CellMesh {
  private:
   struct Patch {
     BicubicHermite<Eigen::Vector2d> geometry;
+    BicubicHermite<Color> color;
     BicubicBezier<Eigen::Vector2d> bezier;
     int first_cell = 0, cell_count = 0;
     std::array<int, 4> corner_cell{};
@@ -83,13 +95,17 @@ class CellMesh {
                 const Eigen::Vector2d& to);
   void link_twins();
   Beyond beyond(int quad, int k) const;
+  bool is_outline(int h) const;
+  double slope_across(const Patch& patch, int k, const Eigen::Vector2d& uv) const;
 
   const SvgLayer& layer_;
+  CellPaint paint_;
   std::vector<PatchCell> cells_;
   std::unordered_map<int, Patch> patches_;  ///< by quad
   std::vector<Side> sides_;
   std::vector<int> side_begin_;
   std::vector<Eigen::Vector2d> points_;
+  std::vector<double> slopes_;  ///< at the points
 };
 
 }  // namespace quadrille

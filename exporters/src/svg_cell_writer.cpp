@@ -1,8 +1,5 @@
 #include "svg_cell_writer.h"
 
-#include <cmath>
-#include <numbers>
-
 #include "svg_text.h"
 
 namespace quadrille {
@@ -23,20 +20,17 @@ std::string hex(const LinearGradient::Rgb& rgb) {
   return text;
 }
 
-/// The attributes of a gradient vector in units of the bounding box.
-std::string vector_of(const LinearGradient& g) {
-  const double angle = std::numbers::pi * g.direction / LinearGradient::kDirections;
-  const double x = std::cos(angle), y = std::sin(angle);
-  const double low = std::min(0.0, x) + std::min(0.0, y), extent = std::abs(x) + std::abs(y);
-  const auto at = [&](int place) { return low + extent * place / LinearGradient::kPlaces; };
+/// The attributes of a gradient vector that differ from what they are when left out.
+std::string attributes_of(const GradientVector& v) {
   std::string text;
-  const auto add = [&](const char* name, double value) {
-    text += std::string(" ") + name + "=\"" + to_short_text(value, 4) + "\"";
+  const auto add = [&](const char* name, double value, const char* usual) {
+    const std::string number = to_short_text(value, 4);
+    if (number != usual) text += std::string(" ") + name + "=\"" + number + "\"";
   };
-  add("x1", x * at(g.first));
-  add("y1", y * at(g.first));
-  add("x2", x * at(g.last));
-  add("y2", y * at(g.last));
+  add("x1", v.from.x(), "0");
+  add("y1", v.from.y(), "0");
+  add("x2", v.to.x(), "1");
+  add("y2", v.to.y(), "0");
   return text;
 }
 
@@ -79,20 +73,21 @@ void SvgCellWriter::finish() {
 }
 
 std::string SvgCellWriter::gradient_id(const LinearGradient& gradient) {
-  const std::string direction = vector_id(gradient);
-  const std::string body = direction + "\">" + stops_of(gradient);
+  const std::string body =
+      (gradient.vector.is_common ? " xlink:href=\"#" + vector_id(gradient.vector) + "\""
+                                 : attributes_of(gradient.vector)) +
+      ">" + stops_of(gradient);
   if (gradients_.size() >= kRemembered) gradients_.clear();
   const auto [entry, is_new] = gradients_.try_emplace(body);
   if (is_new) {
     entry->second = short_identifier(id_count_++);
-    out_ << "<linearGradient id=\"" << entry->second << "\" xlink:href=\"#" << body
-         << "</linearGradient>\n";
+    out_ << "<linearGradient id=\"" << entry->second << "\"" << body << "</linearGradient>\n";
   }
   return entry->second;
 }
 
-std::string SvgCellWriter::vector_id(const LinearGradient& gradient) {
-  const auto [entry, is_new] = vectors_.try_emplace(vector_of(gradient));
+std::string SvgCellWriter::vector_id(const GradientVector& vector) {
+  const auto [entry, is_new] = vectors_.try_emplace(attributes_of(vector));
   if (is_new) {
     entry->second = short_identifier(id_count_++);
     out_ << "<linearGradient id=\"" << entry->second << "\"" << entry->first << "/>\n";

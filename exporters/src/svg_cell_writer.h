@@ -24,7 +24,7 @@ class SvgCellWriter {
  private:
   std::string gradient_id(const LinearGradient& gradient);
   /// Gradients of one direction and range take them from one element.
-  std::string vector_id(const LinearGradient& gradient);
+  std::string vector_id(const GradientVector& vector);
 
   std::ostream& out_;
   int units_;

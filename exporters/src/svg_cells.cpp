@@ -7,6 +7,7 @@
 #include "patch_sides.h"
 #include "svg_bleed.h"
 #include "svg_path.h"
+#include "svg_slope.h"
 
 namespace quadrille {
 namespace {
@@ -103,15 +104,21 @@ class PatchDivider {
   }
 
   CellSamples samples(const ParameterBox& box) const {
-    constexpr int n = CellSamples::kSide;
-    constexpr double kMiddle = 0.5 * (n - 1);
+    // Small cells show no more than a few samples can tell.
+    constexpr int kLeast = 6;
+    constexpr double kPerPixel = 1.5;
+    const double longest = std::min(std::max(side_u(box), side_v(box)), 1e3);
+    const int n = std::clamp(static_cast<int>(std::lround(kPerPixel * longest)), kLeast,
+                             CellSamples::kMostAlong);
+    const double middle = 0.5 * (n - 1);
     CellSamples samples;
-    const double share = (box.u1 - box.u0) * (box.v1 - box.v0) / CellSamples::kCount;
+    samples.count = n * n;
+    const double share = (box.u1 - box.u0) * (box.v1 - box.v0) / samples.count;
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
         // The grid is turned a little: samples in line with a gradient's stops could not tell what
         // happens between the stops.
-        const double across = i - kMiddle, down = j - kMiddle;
+        const double across = i - middle, down = j - middle;
         const double s = std::clamp(0.5 + (across + down / n) / (n - 1), 0.0, 1.0);
         const double t = std::clamp(0.5 + (down - across / n) / (n - 1), 0.0, 1.0);
         set_sample(samples, j * n + i, box.u0 + (box.u1 - box.u0) * s,
@@ -135,6 +142,8 @@ class PatchDivider {
       samples.color[index] = (c.head<3>().cast<double>() * straight).max(0.0).min(255.0);
       samples.weight[index] = area * alpha * alpha;
     }
+    const auto slopes = paint_slopes(position_, color_, paint_, u, v);
+    samples.slopes += samples.weight[index] * (slopes.transpose() * slopes);
   }
 
   double side_u(const ParameterBox& box) const {

@@ -16,9 +16,6 @@ struct SvgCell {
   double cost = 0;  ///< squared error and price of the bytes, in the units of SvgDetail::price
 };
 
-/// What cells show: the colour itself, or alpha as gray for a mask.
-enum class CellPaint { color, alpha };
-
 /// Divides a patch into cells so that about the least squared error remains for the bytes that they
 /// take at the price of the detail; colours count by their alpha.
 std::vector<SvgCell> divide_into_cells(const SvgLayer& layer, int quad, CellPaint paint,

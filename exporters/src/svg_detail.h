@@ -10,4 +10,7 @@ struct SvgDetail {
   int units_per_pixel = 8;  ///< coordinates are multiples of 1 / units_per_pixel pixel
 };
 
+/// What cells show: the colour itself, or alpha as gray for a mask.
+enum class CellPaint { color, alpha };
+
 }  // namespace quadrille

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -20,21 +22,30 @@ constexpr int kScoutStops = 4, kMostOfTwo = 6;
 /// Opacities of the second gradient, the least first: the first gradient alone is then nearest to
 /// the whole, and half-covered pixels at seams err least.
 constexpr double kOpacities[] = {0.2, 0.35, 0.5, 0.65};
-/// By what factor the cost of two gradients may lie above the limit with scouts for stops.
+/// By what factor a cost may lie above the limit with scouts for stops: other numbers of stops and
+/// other directions rarely save more.
 constexpr double kHopeless = 2;
+/// In so many of the common directions, those with the best scouts, other numbers are tried; the
+/// sums of two have one of these or the cell's own direction.
+constexpr int kPromising = 2;
 /// What the parts of a fill take in a compressed file, in bytes.
 constexpr double kFlatBytes = 5, kGradientBytes = 11, kStopBytes = 5.7;
+constexpr double kOwnVectorBytes = 10;
+/// Angles from the steepest one at which an own vector is tried as well, in turns halved.
+constexpr double kFirstTurn = std::numbers::pi / 24;
+constexpr int kTurns = 3;
 
-double gradient_bytes(int stops) { return kGradientBytes + kStopBytes * stops; }
+double gradient_bytes(const RidgeAxis& axis, int stops) {
+  return kGradientBytes + (axis.vector.is_common ? 0 : kOwnVectorBytes) + kStopBytes * stops;
+}
+/// Those of the smallest gradient.
+constexpr double kLeastGradientBytes = kGradientBytes + 2 * kStopBytes;
 
 /// Colours of the stops, one per row.
 using Stops = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, LinearGradient::kMaxStops, 3>;
 
-LinearGradient gradient_of(const RidgeAxis& axis, int direction, const Stops& stops) {
-  LinearGradient gradient{.direction = direction,
-                          .first = axis.first,
-                          .last = axis.last,
-                          .stop_count = static_cast<int>(stops.rows())};
+LinearGradient gradient_of(const RidgeAxis& axis, const Stops& stops) {
+  LinearGradient gradient{.vector = axis.vector, .stop_count = static_cast<int>(stops.rows())};
   for (int k = 0; k < gradient.stop_count; ++k) {
     gradient.stops[k] = rounded_color(stops.row(k).transpose().array());
   }
@@ -45,11 +56,14 @@ class CellFitter {
  public:
   CellFitter(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double price,
              double again, double limit)
-      : s_(samples), price_(price), again_(again), limit_(limit) {
-    for (int d = 0; d < LinearGradient::kDirections; ++d) {
-      axes_[d] = ridge_axis(samples, bounds, d);
-    }
-    for (int i = 0; i < CellSamples::kCount; ++i) {
+      : s_(samples),
+        colors_(samples),
+        bounds_(bounds),
+        price_(price),
+        again_(again),
+        limit_(limit) {
+    for (int d = 0; d < kCommonDirections; ++d) axes_[d] = common_axis(samples, bounds, d);
+    for (int i = 0; i < s_.count; ++i) {
       total_ += s_.weight[i];
       mean_ += s_.weight[i] * s_.color[i];
       squares_ += s_.weight[i] * s_.color[i].square().sum();
@@ -60,10 +74,12 @@ class CellFitter {
   CellFit run() {
     CellFit best = flat();
     // Nothing more can pay when even a perfect fill would not.
-    if (best.squared_error <= price_ * (gradient_bytes(2) - kFlatBytes)) return best;
+    if (best.squared_error <= price_ * (kLeastGradientBytes - kFlatBytes)) return best;
+    send_scouts();
+    if (is_hopeless()) return best;
     const CellFit one = single();
     if (one.cost(price_) < best.cost(price_)) best = one;
-    if (one.squared_error <= price_ * (again_ + gradient_bytes(2))) return best;
+    if (one.squared_error <= price_ * (again_ + kLeastGradientBytes)) return best;
     const std::optional<CellFit> two = pair();
     if (two && two->cost(price_) < best.cost(price_)) best = *two;
     return best;
@@ -74,25 +90,79 @@ class CellFitter {
     CellFit fit;
     fit.fill.base.stops[0] = rounded_color(mean_);
     fit.bytes = kFlatBytes;
-    measure(fit);
+    measure(fit, axes_[0], axes_[0]);
     return fit;
   }
 
-  CellFit single() const {
-    double lowest = std::numeric_limits<double>::max();
-    int direction = 0;
-    RidgeSolution<RidgeSystem::kSize> best;
-    for (const int stops : kCounts) {
-      for (int d = 0; d < LinearGradient::kDirections; ++d) {
-        const auto solution = solve_ridge(RidgeSystem(s_, axes_[d], stops));
-        const double cost = (squares_ - solution.explained) / 3 + price_ * gradient_bytes(stops);
-        if (cost < lowest) lowest = cost, direction = d, best = solution;
+  struct Ridge {
+    RidgeAxis axis;
+    RidgeSolution<RidgeSystem::kSize> solution;
+    double cost = std::numeric_limits<double>::max();
+    int stops() const { return static_cast<int>(solution.stops.rows()); }
+  };
+
+  /// True when it is better.
+  bool try_ridge(Ridge& best, const RidgeAxis& axis, int stops) const {
+    return try_ridge(best, axis, RidgeSystem(colors_, axis, stops));
+  }
+  bool try_ridge(Ridge& best, const RidgeAxis& axis, const RidgeSystem& system) const {
+    const int stops = system.stops;
+    const auto solution = solve_ridge(system);
+    const double cost = (squares_ - solution.explained) / 3 + price_ * gradient_bytes(axis, stops);
+    if (cost >= best.cost) return false;
+    best = {axis, solution, cost};
+    return true;
+  }
+
+  void send_scouts() {
+    for (int d = 0; d < kCommonDirections; ++d) {
+      scouts_[d] = RidgeSystem(colors_, axes_[d], kScoutStops);
+      try_ridge(single_scouts_[d], axes_[d], scouts_[d]);
+    }
+    std::iota(by_scouts_.begin(), by_scouts_.end(), 0);
+    std::sort(by_scouts_.begin(), by_scouts_.end(),
+              [&](int a, int b) { return single_scouts_[a].cost < single_scouts_[b].cost; });
+  }
+
+  /// Goes by the common directions and the sums of two that are perpendicular.
+  bool is_hopeless() const {
+    const double most = kHopeless * limit_;
+    for (const Ridge& scout : single_scouts_) {
+      if (scout.cost <= most) return false;
+    }
+    Pair best;
+    constexpr int kHalf = kCommonDirections / 2;
+    for (int d = 0; d < kHalf; ++d) try_pair(best, scouts_[d], d, scouts_[d + kHalf], d + kHalf);
+    return best.cost > most;
+  }
+
+  /// About the best axis of the cell's own.
+  Ridge own() const {
+    Ridge best;
+    double angle = steepest_angle(s_, bounds_);
+    const RidgeAxis steepest = own_axis(s_, bounds_, angle);
+    for (const int stops : kCounts) try_ridge(best, steepest, stops);
+    double turn = kFirstTurn;
+    for (int i = 0; i < kTurns; ++i, turn *= 0.5) {
+      for (const double turned : {angle - turn, angle + turn}) {
+        if (!try_ridge(best, own_axis(s_, bounds_, turned), best.stops())) continue;
+        angle = turned;
+        break;
       }
     }
+    return best;
+  }
+
+  CellFit single() {
+    Ridge best = own();
+    axes_[kOwn] = best.axis;
+    for (int i = 0; i < kPromising; ++i) {
+      for (const int stops : kCounts) try_ridge(best, axes_[by_scouts_[i]], stops);
+    }
     CellFit fit;
-    fit.fill.base = gradient_of(axes_[direction], direction, best.stops);
-    fit.bytes = gradient_bytes(fit.fill.base.stop_count);
-    measure(fit);
+    fit.fill.base = gradient_of(best.axis, best.solution.stops);
+    fit.bytes = gradient_bytes(best.axis, best.stops());
+    measure(fit, best.axis, best.axis);
     return fit;
   }
 
@@ -104,34 +174,33 @@ class CellFitter {
   };
 
   void try_pair(Pair& best, const RidgeSystem& a, int da, const RidgeSystem& b, int db) const {
-    Pair pair{{da, db}, {a.stops, b.stops}, 0, solve_ridges(s_, a, b)};
-    pair.cost = (squares_ - pair.solution.explained) / 3 +
-                price_ * (gradient_bytes(a.stops) + gradient_bytes(b.stops) + again_);
+    Pair pair{{da, db}, {a.stops, b.stops}, 0, solve_ridges(colors_, a, b)};
+    pair.cost =
+        (squares_ - pair.solution.explained) / 3 +
+        price_ * (gradient_bytes(axes_[da], a.stops) + gradient_bytes(axes_[db], b.stops) + again_);
     if (pair.cost < best.cost) best = pair;
   }
 
-  std::optional<CellFit> pair() const {
-    std::array<RidgeSystem, LinearGradient::kDirections> scouts;
-    for (int d = 0; d < LinearGradient::kDirections; ++d) {
-      scouts[d] = RidgeSystem(s_, axes_[d], kScoutStops);
-    }
+  std::optional<CellFit> pair() {
+    scouts_[kOwn] = RidgeSystem(colors_, axes_[kOwn], kScoutStops);
     Pair best;
-    for (int a = 0; a < LinearGradient::kDirections; ++a) {
-      for (int b = a + 1; b < LinearGradient::kDirections; ++b) {
-        try_pair(best, scouts[a], a, scouts[b], b);
+    for (int i = 0; i < kPromising + 1; ++i) {
+      const int a = i == 0 ? kOwn : by_scouts_[i - 1];
+      for (int j = i; j < kCommonDirections; ++j) {
+        const int b = by_scouts_[j];
+        try_pair(best, scouts_[a], a, scouts_[b], b);
       }
     }
-    // Other numbers of stops rarely save more than this.
     if (best.cost > kHopeless * limit_) return {};
-    const auto [a, b] = best.direction;
-    std::vector<RidgeSystem> systems[2];
-    for (const int stops : kCounts) {
-      if (stops > kMostOfTwo) continue;
-      systems[0].emplace_back(s_, axes_[a], stops);
-      systems[1].emplace_back(s_, axes_[b], stops);
-    }
-    for (const RidgeSystem& system_a : systems[0]) {
-      for (const RidgeSystem& system_b : systems[1]) try_pair(best, system_a, a, system_b, b);
+    for (int side = 0; side < 2; ++side) {
+      const auto [a, b] = best.direction;
+      const int kept = best.stops[1 - side];
+      const RidgeSystem other(colors_, axes_[side == 0 ? b : a], kept);
+      for (const int stops : kCounts) {
+        if (stops > kMostOfTwo || stops == kScoutStops) continue;
+        const RidgeSystem tried(colors_, axes_[side == 0 ? a : b], stops);
+        side == 0 ? try_pair(best, tried, a, other, b) : try_pair(best, other, a, tried, b);
+      }
     }
     return layered(best);
   }
@@ -150,12 +219,13 @@ class CellFitter {
       Stops base = part[under], overlay = part[over];
       const bool fits = share(base, overlay, opacity);
       CellFit fit;
-      const int d0 = pair.direction[under], d1 = pair.direction[over];
-      fit.fill.base = gradient_of(axes_[d0], d0, base / (1 - opacity));
-      fit.fill.overlay = gradient_of(axes_[d1], d1, overlay / opacity);
+      const RidgeAxis &lower = axes_[pair.direction[under]], &upper = axes_[pair.direction[over]];
+      fit.fill.base = gradient_of(lower, base / (1 - opacity));
+      fit.fill.overlay = gradient_of(upper, overlay / opacity);
       fit.fill.overlay_opacity = opacity;
-      fit.bytes = gradient_bytes(pair.stops[0]) + gradient_bytes(pair.stops[1]) + again_;
-      measure(fit);
+      fit.bytes = gradient_bytes(lower, pair.stops[under]) +
+                  gradient_bytes(upper, pair.stops[over]) + again_;
+      measure(fit, lower, upper);
       if (!best || fit.squared_error < best->squared_error) best = fit;
       if (fits) break;
     }
@@ -179,14 +249,14 @@ class CellFitter {
     return fits;
   }
 
-  void measure(CellFit& fit) const {
+  void measure(CellFit& fit, const RidgeAxis& lower, const RidgeAxis& upper) const {
     double sum = 0;
     const LinearGradient &base = fit.fill.base, &overlay = fit.fill.overlay;
     const double opacity = fit.fill.overlay_opacity;
-    for (int i = 0; i < CellSamples::kCount; ++i) {
-      Array3d drawn = color_at(base, axes_[base.direction].place[i]);
+    for (int i = 0; i < s_.count; ++i) {
+      Array3d drawn = color_at(base, lower.place[i]);
       if (opacity > 0) {
-        drawn += opacity * (color_at(overlay, axes_[overlay.direction].place[i]) - drawn);
+        drawn += opacity * (color_at(overlay, upper.place[i]) - drawn);
       }
       sum += s_.weight[i] * (drawn - s_.color[i]).square().sum();
     }
@@ -203,9 +273,16 @@ class CellFitter {
     return stop(at.interval) * (1 - at.fraction) + stop(at.interval + 1) * at.fraction;
   }
 
+  static constexpr int kOwn = kCommonDirections, kAxes = kOwn + 1;
+
   const CellSamples& s_;
+  WeightedColors colors_;
+  const Eigen::AlignedBox2d& bounds_;
   double price_, again_, limit_;
-  std::array<RidgeAxis, LinearGradient::kDirections> axes_;
+  std::array<RidgeAxis, kAxes> axes_;      ///< the common ones, then the cell's own
+  std::array<RidgeSystem, kAxes> scouts_;  // kScoutStops along each axis
+  std::array<Ridge, kCommonDirections> single_scouts_;
+  std::array<int, kCommonDirections> by_scouts_{};  // the best first
   double total_ = 0, squares_ = 0;
   Array3d mean_ = Array3d::Zero();
 };

@@ -7,18 +7,20 @@
 
 namespace quadrille {
 
-/// A linear gradient with evenly spaced stops. Directions and places are those of the unit square
-/// that the bounds of what is painted are scaled to (objectBoundingBox): a few directions and
-/// ranges then serve all cells.
+/// The vector of a linear gradient: its ends in the unit square that the bounds of what is painted
+/// are scaled to (objectBoundingBox), in decimals as they are written.
+struct GradientVector {
+  Eigen::Vector2d from = {0, 0}, to = {1, 0};
+  bool is_common = true;  ///< of the few directions and ranges that serve most cells
+};
+
+/// A linear gradient with evenly spaced stops.
 struct LinearGradient {
   static constexpr int kMaxStops = 8;
-  static constexpr int kDirections = 8;  ///< direction d: (cos, sin) of pi d / 8
-  static constexpr int kPlaces = 8;  ///< places are multiples of 1 / kPlaces of the square's extent
   using Rgb = std::array<std::uint8_t, 3>;
 
-  int direction = 0;
-  int first = 0, last = kPlaces;  ///< where the first and the last stop lie
-  int stop_count = 1;             ///< 1 means one flat colour
+  GradientVector vector;
+  int stop_count = 1;  ///< 1 means one flat colour
   std::array<Rgb, kMaxStops> stops{};
 };
 
@@ -36,12 +38,16 @@ struct CellFill {
 
 /// Colours of a cell on a grid of its parameters, the borders included.
 struct CellSamples {
-  static constexpr int kSide = 10;
-  static constexpr int kCount = kSide * kSide;
+  static constexpr int kMostAlong = 10;  ///< a side of the grid
+  static constexpr int kMost = kMostAlong * kMostAlong;
 
-  std::array<Eigen::Vector2d, kCount> position;
-  std::array<Eigen::Array3d, kCount> color;  ///< 0 to 255
-  std::array<double, kCount> weight;  ///< square pixels that the sample stands for, times its alpha
+  int count = 0;  ///< of those that follow
+  std::array<Eigen::Vector2d, kMost> position;
+  std::array<Eigen::Array3d, kMost> color;  ///< 0 to 255
+  std::array<double, kMost> weight;  ///< square pixels that the sample stands for, times its alpha
+  /// The structure tensor: weighted sum of g g' over the samples and channels, g the gradient of
+  /// the colour in the picture.
+  Eigen::Matrix2d slopes = Eigen::Matrix2d::Zero();
 };
 
 struct CellFit {

@@ -13,24 +13,25 @@ namespace {
 
 double total_weight(const CellSamples& samples) {
   double sum = 0;
-  for (const double w : samples.weight) sum += w;
+  for (int i = 0; i < samples.count; ++i) sum += samples.weight[i];
   return sum;
 }
 
 /// Samples of two sets together, from each about as many as its share of the weight but a quarter
 /// at least: something small must not be lost within something large.
 CellSamples joined(const CellSamples& a, const CellSamples& b) {
-  constexpr int n = CellSamples::kCount;
+  const int n = std::min(CellSamples::kMost, a.count + b.count);
   const double wa = total_weight(a), wb = total_weight(b);
   const double share = wa + wb > 0 ? wa / (wa + wb) : 0.5;
   const int from_a = std::clamp(static_cast<int>(std::lround(n * share)), n / 4, n - n / 4);
   CellSamples both;
+  both.count = n;
   int i = 0;
   const auto take = [&](const CellSamples& from, int count) {
     const int begin = i;
     double sum = 0;
     for (int k = 0; k < count; ++k, ++i) {
-      const int source = static_cast<int>((k + 0.5) * n / count);
+      const int source = static_cast<int>((k + 0.5) * from.count / count);
       both.position[i] = from.position[source];
       both.color[i] = from.color[source];
       sum += both.weight[i] = from.weight[source];
@@ -40,6 +41,7 @@ CellSamples joined(const CellSamples& a, const CellSamples& b) {
   };
   take(a, from_a);
   take(b, n - from_a);
+  both.slopes = a.slopes + b.slopes;
   return both;
 }
 

@@ -11,6 +11,8 @@ using Eigen::Vector2d;
 
 /// Farthest that a straight line may be from an exact curve it stands for, in pixels.
 constexpr double kExactFlatness = 0.01;
+/// Points are exact below this share of the tolerance; the least tolerance, in pixels.
+constexpr double kExactShare = 0.8, kLeastTolerance = 0.02;
 
 double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   const Vector2d chord = b - a;
@@ -21,15 +23,20 @@ double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d&
 
 }  // namespace
 
-bool OutlineSimplifier::ends_exactly(std::size_t i) const {
-  return steps_[(i + steps_.size() - 1) % steps_.size()].is_exact;
+void OutlineSimplifier::add(const Vector2d& point, double tolerance) {
+  steps_.push_back({false, tolerance < kExactShare * tolerance_, point, point, point,
+                    std::min(tolerance_, std::max(tolerance, kLeastTolerance))});
+}
+
+bool OutlineSimplifier::ends_curve(std::size_t i) const {
+  return steps_[(i + steps_.size() - 1) % steps_.size()].is_curve;
 }
 
 /// A point that is kept for sure: an end of an exact curve, or an extreme one.
 std::size_t OutlineSimplifier::anchor() const {
   std::size_t best = 0;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
-    if (steps_[i].is_exact) return i;
+    if (steps_[i].is_curve) return i;
     if (steps_[i].point.sum() < steps_[best].point.sum()) best = i;
   }
   return best;
@@ -42,10 +49,10 @@ void OutlineSimplifier::keep_between(std::size_t first, std::size_t last,
     const auto [a, b] = open.back();
     open.pop_back();
     const Vector2d from = steps_[a].point, to = steps_[b % steps_.size()].point;
-    double farthest = tolerance_;
+    double farthest = 1;
     std::size_t middle = 0;
     for (std::size_t i = a + 1; i < b; ++i) {
-      const double distance = distance_to_segment(steps_[i].point, from, to);
+      const double distance = distance_to_segment(steps_[i].point, from, to) / steps_[i].tolerance;
       if (distance > farthest) farthest = distance, middle = i;
     }
     if (middle == 0) continue;
@@ -63,7 +70,7 @@ SvgOutline OutlineSimplifier::outline() {
   std::vector<char> kept(count, 0);
   kept[0] = 1;
   for (std::size_t i = 0; i < count; ++i) {
-    if (steps_[i].is_exact || ends_exactly(i)) kept[i] = 1;
+    if (steps_[i].is_curve || ends_curve(i)) kept[i] = 1;
   }
   for (std::size_t first = 0; first < count;) {
     std::size_t last = first + 1;
@@ -78,7 +85,7 @@ SvgOutline OutlineSimplifier::outline() {
     while (next < count && !kept[next]) ++next;
     const Vector2d end = steps_[next % count].point;
     const bool is_exact = step.is_exact || steps_[next % count].is_exact;
-    const bool is_line = !step.is_exact || chord_distance({step.point, step.control1, step.control2,
+    const bool is_line = !step.is_curve || chord_distance({step.point, step.control1, step.control2,
                                                            end}) <= kExactFlatness;
     outline.pieces.push_back({is_line, step.control1, step.control2, end, is_exact});
     i = next;

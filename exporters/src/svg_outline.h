@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "subdivision.h"
@@ -13,7 +14,7 @@ struct SvgOutline {
     bool is_line;
     Eigen::Vector2d control1, control2;  ///< of a cubic
     Eigen::Vector2d end;
-    bool is_exact = false;  ///< ends on the outline of the mesh or a tear: nothing covers its end
+    bool is_exact = false;  ///< ends where rounding would show: on an outline, a tear, an edge
   };
   Eigen::Vector2d start = {0, 0};  ///< as exact as the last piece's end
   std::vector<Piece> pieces;
@@ -24,20 +25,23 @@ struct SvgOutline {
 class OutlineSimplifier {
  public:
   explicit OutlineSimplifier(double tolerance) : tolerance_(tolerance) {}
-  /// A point, and a line from it to what is added next.
-  void add(const Eigen::Vector2d& point) { steps_.push_back({false, point, point, point}); }
+  /// A point, and a line from it to what is added next. Where it has a lower tolerance than the
+  /// outline, its coordinates are exact.
+  void add(const Eigen::Vector2d& point,
+           double tolerance = std::numeric_limits<double>::infinity());
   /// A curve that is kept as it is, to where what is added next begins.
   void add_exact(const PlaneCurve& curve) {
-    steps_.push_back({true, curve[0], curve[1], curve[2]});
+    steps_.push_back({true, true, curve[0], curve[1], curve[2], tolerance_});
   }
   SvgOutline outline();
 
  private:
   struct Step {
-    bool is_exact;
+    bool is_curve, is_exact;
     Eigen::Vector2d point, control1, control2;
+    double tolerance;
   };
-  bool ends_exactly(std::size_t i) const;
+  bool ends_curve(std::size_t i) const;
   std::size_t anchor() const;
   void keep_between(std::size_t first, std::size_t last, std::vector<char>& kept) const;
 

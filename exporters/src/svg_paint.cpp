@@ -65,7 +65,7 @@ std::vector<SvgPaint> paint_patches(const SvgLayer& layer, const std::vector<int
   std::vector<SvgCell> cells = divided(layer, quads, paint, detail);
   std::vector<PatchCell> parts;
   for (const SvgCell& cell : cells) parts.push_back(cell.part);
-  const CellMesh mesh(layer, parts);
+  const CellMesh mesh(layer, parts, paint);
   const double price = price_of(detail, paint);
   const std::vector<MergedCells> groups =
       in_order(mesh, merge_cells(mesh, std::move(cells), price, detail.units_per_pixel));

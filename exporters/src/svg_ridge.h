@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 
 #include "svg_gradient.h"
@@ -10,33 +11,52 @@ namespace quadrille {
 /// Least squares for functions of the picture that change along one direction only, or sums of two
 /// such functions: piecewise linear between evenly spaced stops.
 
-/// A direction of gradients as the samples see it.
+/// The vector of a gradient as the samples see it.
 struct RidgeAxis {
-  int first = 0, last = 0;                          ///< see LinearGradient
-  std::array<double, CellSamples::kCount> place{};  ///< 0 at the first stop, 1 at the last
+  GradientVector vector;
+  std::array<double, CellSamples::kMost> place{};  ///< 0 at the first stop, 1 at the last
 };
-RidgeAxis ridge_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, int direction);
+
+/// Directions that many cells have in common: (cos, sin) of pi d / kCommonDirections in the unit
+/// square. The ends of their vectors are at multiples of an eighth of the square's extent.
+inline constexpr int kCommonDirections = 8;
+RidgeAxis common_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, int direction);
+
+/// An axis at any angle in the unit square, from the first of the samples along it to the last.
+RidgeAxis own_axis(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double angle);
+
+/// The angle in the unit square at which the samples' colours change most.
+double steepest_angle(const CellSamples& samples, const Eigen::AlignedBox2d& bounds);
 
 struct RidgePlace {
   int interval;
   double fraction;
 };
 inline RidgePlace ridge_place(double place, int stops) {
-  const double x = place * (stops - 1);
-  const int k = x <= 0 ? 0 : x >= stops - 1 ? stops - 2 : static_cast<int>(x);
-  return {k, x - k < 0 ? 0 : x - k > 1 ? 1 : x - k};
+  const double x = std::min(std::max(0.0, place * (stops - 1)), stops - 1.0);
+  const int k = std::min(static_cast<int>(x), stops - 2);
+  return {k, x - k};
 }
+
+/// Per sample its colour times its weight, and the weight.
+struct WeightedColors {
+  int count;
+  std::array<Eigen::Array4d, CellSamples::kMost> sample;
+  explicit WeightedColors(const CellSamples& samples);
+};
 
 /// The normal equations of the stop colours along one axis.
 struct RidgeSystem {
   static constexpr int kSize = LinearGradient::kMaxStops;
   int stops = 0;
-  Eigen::Matrix<double, kSize, kSize> matrix;  ///< the top left corner counts
-  Eigen::Matrix<double, kSize, 3> right;
-  std::array<RidgePlace, CellSamples::kCount> place;
+  /// Per stop the three channels of the right-hand side, and the diagonal of the matrix, which is
+  /// tridiagonal; then what lies below its diagonal.
+  std::array<Eigen::Array4d, kSize> right_and_diagonal;
+  std::array<double, kSize> below{};
+  std::array<RidgePlace, CellSamples::kMost> place;
 
   RidgeSystem() = default;
-  RidgeSystem(const CellSamples& samples, const RidgeAxis& axis, int stop_count);
+  RidgeSystem(const WeightedColors& colors, const RidgeAxis& axis, int stop_count);
 };
 
 template <int Size>
@@ -48,7 +68,7 @@ struct RidgeSolution {
 RidgeSolution<RidgeSystem::kSize> solve_ridge(const RidgeSystem& system);
 
 /// The stops of the first summand, then those of the second.
-RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const CellSamples& samples, const RidgeSystem& a,
-                                                   const RidgeSystem& b);
+RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const WeightedColors& colors,
+                                                   const RidgeSystem& a, const RidgeSystem& b);
 
 }  // namespace quadrille

@@ -12,46 +12,18 @@ constexpr std::size_t kGroupSize = 24;
 
 class Grouper {
  public:
-  Grouper(const SvgLayer& layer, double width, double height)
+  /// Of the quads that are marked.
+  Grouper(const SvgLayer& layer, const std::vector<char>& marked)
       : layer_(layer),
         mesh_(layer.mesh()),
-        size_(width, height),
         group_(mesh_.quad_count(), kNone),
         seen_(mesh_.halfedge_count(), 0) {
-    for (const int q : layer.quads(PatchOpacity::opaque)) {
-      if (!touches_outline(q)) group_[q] = kOpen;
-    }
-  }
-
-  std::vector<UnderlayGroup> run() {
-    std::vector<UnderlayGroup> groups = {whole()};
     for (int q = 0; q < mesh_.quad_count(); ++q) {
-      if (group_[q] != kOpen) continue;
-      const std::vector<int> quads = gather(q, static_cast<int>(groups.size()));
-      groups.push_back({outlines(quads), mean_color(quads)});
+      if (marked[q]) group_[q] = kOpen;
     }
-    return groups;
   }
 
- private:
-  static constexpr int kNone = -1, kOpen = -2;
-
-  /// The straight border of the picture does not count: it lies on the border of pixels.
-  bool touches_outline(int q) const {
-    for (int k = 0; k < 4; ++k) {
-      const int h = 4 * q + k, twin = mesh_.twin(h);
-      const bool ends =
-          twin < 0 ? !on_picture_border(h) : !layer_.is_opaque(QuadMesh::quad_of(twin));
-      if (ends) return true;
-    }
-    return false;
-  }
-
-  bool on_picture_border(int h) const {
-    return is_on_a_side(edge_curve(layer_.layer(), h), size_.x(), size_.y());
-  }
-
-  /// All of them without a seam, below the groups.
+  /// All of them without a seam, in their mean colour.
   UnderlayGroup whole() const {
     std::vector<char> inside(mesh_.quad_count());
     std::vector<int> quads;
@@ -71,6 +43,20 @@ class Grouper {
     }
     return group;
   }
+
+  /// All of them, and above that some after some.
+  std::vector<UnderlayGroup> run() {
+    std::vector<UnderlayGroup> groups = {whole()};
+    for (int q = 0; q < mesh_.quad_count(); ++q) {
+      if (group_[q] != kOpen) continue;
+      const std::vector<int> quads = gather(q, static_cast<int>(groups.size()));
+      groups.push_back({outlines(quads), mean_color(quads)});
+    }
+    return groups;
+  }
+
+ private:
+  static constexpr int kNone = -1, kOpen = -2;
 
   /// The half-edge on the other side of h where that may be in the same group, or -1.
   int neighbor(int h) const { return mesh_.is_tear(mesh_.edge(h)) ? -1 : mesh_.twin(h); }
@@ -123,22 +109,79 @@ class Grouper {
   }
 
   Eigen::Array3d mean_color(const std::vector<int>& quads) const {
-    Eigen::Array3d sum = Eigen::Array3d::Zero();
-    for (const int q : quads) sum += layer_.color(q).at(0.5, 0.5).head<3>().cast<double>();
-    return (255 * sum / std::max(1.0, double(quads.size()))).max(0.0).min(255.0);
+    Color sum = Color::Zero();
+    for (const int q : quads) sum += layer_.color(q).at(0.5, 0.5);
+    const double straight = 255 / std::max(double(sum[3]), 1e-3);
+    return (straight * sum.head<3>().cast<double>()).max(0.0).min(255.0);
   }
 
   const SvgLayer& layer_;
   const QuadMesh& mesh_;
-  Eigen::Vector2d size_;
   std::vector<int> group_;
   std::vector<char> seen_;
 };
 
+/// True when the patch borders on one of an opacity that `ends` it, or on nothing. The straight
+/// border of the picture does not count: it lies on the border of pixels.
+template <class Ends>
+bool touches_end(const SvgLayer& layer, int q, double width, double height, const Ends& ends) {
+  for (int h = 4 * q; h < 4 * q + 4; ++h) {
+    const int twin = layer.mesh().twin(h);
+    if (twin < 0 ? !is_on_a_side(edge_curve(layer.layer(), h), width, height)
+                 : ends(layer.opacity(QuadMesh::quad_of(twin)))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool is_nearly_opaque(const SvgLayer& layer, int q) {
+  constexpr float kLeastAlpha = 0.9f;
+  const auto& corners = layer.color(q).value;
+  return std::all_of(corners.begin(), corners.end(),
+                     [](const Color& color) { return color[3] >= kLeastAlpha; });
+}
+
+/// The opaque patches that have a vertex in common with translucent ones.
+std::vector<char> opaque_beside_translucent(const SvgLayer& layer) {
+  const QuadMesh& mesh = layer.mesh();
+  std::vector<char> touched(mesh.vertex_count(), 0), beside(mesh.quad_count(), 0);
+  for (const int q : layer.quads(PatchOpacity::translucent)) {
+    for (const int v : mesh.quads()[q]) touched[v] = 1;
+  }
+  for (const int q : layer.quads(PatchOpacity::opaque)) {
+    for (const int v : mesh.quads()[q]) beside[q] |= touched[v];
+  }
+  return beside;
+}
+
 }  // namespace
 
-std::vector<UnderlayGroup> underlay_groups(const SvgLayer& layer, double width, double height) {
-  return Grouper(layer, width, height).run();
+std::vector<UnderlayGroup> opaque_underlay(const SvgLayer& layer, double width, double height) {
+  std::vector<char> marked(layer.mesh().quad_count(), 0);
+  const auto ends = [](PatchOpacity opacity) { return opacity != PatchOpacity::opaque; };
+  for (const int q : layer.quads(PatchOpacity::opaque)) {
+    marked[q] = !touches_end(layer, q, width, height, ends);
+  }
+  return Grouper(layer, marked).run();
+}
+
+std::vector<UnderlayGroup> translucent_underlay(const SvgLayer& layer) {
+  std::vector<char> marked = opaque_beside_translucent(layer);
+  for (const int q : layer.quads(PatchOpacity::translucent)) marked[q] = 1;
+  return Grouper(layer, marked).run();
+}
+
+UnderlayGroup mask_underlay(const SvgLayer& layer, double width, double height) {
+  std::vector<char> marked = opaque_beside_translucent(layer);
+  for (const int q : layer.quads(PatchOpacity::translucent)) marked[q] = is_nearly_opaque(layer, q);
+  const auto ends = [](PatchOpacity opacity) { return opacity == PatchOpacity::transparent; };
+  for (int q = 0; q < layer.mesh().quad_count(); ++q) {
+    if (marked[q]) marked[q] = !touches_end(layer, q, width, height, ends);
+  }
+  UnderlayGroup group = Grouper(layer, marked).whole();
+  group.color.fill(255);
+  return group;
 }
 
 }  // namespace quadrille

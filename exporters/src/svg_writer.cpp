@@ -42,7 +42,7 @@ class SvgWriter {
     out_ << "<g id=\"" << id << "\">\n";
     const std::vector<int> translucent = layer.quads(PatchOpacity::translucent);
     if (!translucent.empty()) write_masked(layer, translucent, id);
-    write_underlay(layer, id);
+    write_underlay(opaque_underlay(layer, image_.width, image_.height), id);
     write_regions(layer, layer.quads(PatchOpacity::opaque));
     out_ << "</g>\n";
   }
@@ -54,23 +54,25 @@ class SvgWriter {
     out_ << "<mask id=\"" << id << "-alpha\" maskUnits=\"userSpaceOnUse\" x=\"0\" y=\"0\" width=\""
          << to_text(image_.width * units) << "\" height=\"" << to_text(image_.height * units)
          << "\">\n";
+    add_underlay(mask_underlay(layer, image_.width, image_.height));
     write_cells(layer, quads, CellPaint::alpha);
     out_ << "</mask>\n<g id=\"" << id << "-translucent\" mask=\"url(#" << id << "-alpha)\">\n";
+    write_underlay(translucent_underlay(layer), id + "-translucent");
     write_cells(layer, quads, CellPaint::color);
     out_ << "</g>\n";
   }
 
-  void write_underlay(const SvgLayer& layer, const std::string& id) {
-    const std::vector<UnderlayGroup> groups = underlay_groups(layer, image_.width, image_.height);
-    if (groups.empty()) return;
+  void write_underlay(const std::vector<UnderlayGroup>& groups, const std::string& id) {
     out_ << "<g id=\"" << id << "-underlay\">\n";
-    for (const UnderlayGroup& group : groups) {
-      CellFill fill;
-      fill.base.stops[0] = rounded_color(group.color);
-      cells_.add(group.outlines, fill);
-    }
+    for (const UnderlayGroup& group : groups) add_underlay(group);
     cells_.finish();
     out_ << "</g>\n";
+  }
+
+  void add_underlay(const UnderlayGroup& group) {
+    CellFill fill;
+    fill.base.stops[0] = rounded_color(group.color);
+    cells_.add(group.outlines, fill);
   }
 
   void write_regions(const SvgLayer& layer, const std::vector<int>& quads) {

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "fit_lanes.h"
 #include "fit_smoothness.h"
@@ -47,6 +48,17 @@ void add_samples(const SampleBlock& samples, int local, const Raster& picture,
   }
 }
 
+PatchScan pixel_scan(const PatchMesh& patches) {
+  std::vector<int> all(patches.patch_count());
+  std::iota(all.begin(), all.end(), 0);
+  PatchScan scan(patches);
+  scan.start(Eigen::Affine2d::Identity());
+  scan.add(all, [](std::size_t count, const auto& body) {
+    tbb::parallel_for(std::size_t{0}, count, body);
+  });
+  return scan;
+}
+
 WedgeUnknowns unknowns_of(const Wedge& w) {
   WedgeUnknowns x;
   x.col(0) = w.value;
@@ -84,17 +96,23 @@ void add_correction(const ColorSystem::Vector& correction, std::vector<Wedge>& w
 ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, const FitOptions& options,
                          const RunContext& context, std::vector<SampleBlock>* keep,
                          const Overshoot& overshoot)
+    : ColorSystem(pixel_scan(patches), picture, options, context, keep, overshoot) {}
+
+ColorSystem::ColorSystem(const PatchScan& scan, const Raster& picture, const FitOptions& options,
+                         const RunContext& context, std::vector<SampleBlock>* keep,
+                         const Overshoot& overshoot)
     : channels_(picture.channels),
-      wedge_corners_(patches),
-      mixed_(patches, picture, rows_),
-      groups_(padded_count(patches.patch_count()) / kLaneCount),
-      scratch_(padded_count(patches.patch_count())),
-      inverse_blocks_(patches.wedges.size()) {
+      wedge_corners_(scan.patches()),
+      mixed_(scan, picture, rows_),
+      groups_(padded_count(scan.patches().patch_count()) / kLaneCount),
+      scratch_(padded_count(scan.patches().patch_count())),
+      inverse_blocks_(scan.patches().wedges.size()) {
+  const PatchMesh& patches = scan.patches();
   right_hand_side.resize(patches.wedges.size());
   if (options.smoothness > 0) add_smoothness(patches, options.smoothness, rows_);
   overshoot.add_equations(patches, rows_);
   rows_.finish(patches.wedges.size());
-  assemble(patches, picture, options.regularization, context, keep);
+  assemble(scan, picture, options.regularization, context, keep);
   rows_.evaluate_residual();
   for_each_range(wedge_count(), [&](int begin, int end) {
     for (int w = begin; w < end; ++w) {
@@ -106,13 +124,16 @@ ColorSystem::ColorSystem(const PatchMesh& patches, const Raster& picture, const 
   invert_blocks();
 }
 
-void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, double regularization,
+void ColorSystem::assemble(const PatchScan& scan, const Raster& picture, double regularization,
                            const RunContext& context, std::vector<SampleBlock>* keep) {
   context.progress("fit", 0);
+  const PatchMesh& patches = scan.patches();
+  const bool are_known = keep && !keep->empty();
   if (keep) keep->resize(sample_block_count(patches));
-  const PatchScan scan(patches, SampleGrid{});
   tbb::parallel_for(0, sample_block_count(patches), [&](int block) {
-    SampleBlock samples = find_samples(patches, scan, picture, block);
+    SampleBlock here;
+    SampleBlock& samples = keep ? (*keep)[block] : here;
+    if (!are_known) samples = find_samples(patches, scan, picture, block);
     for (int local = 0; local < samples.patch_count(); ++local) {
       const int q = samples.first_patch + local;
       const std::array<CornerMap, 4> corners = corner_maps(patches, q);
@@ -134,7 +155,6 @@ void ColorSystem::assemble(const PatchMesh& patches, const Raster& picture, doub
       }
       scratch_[q] = transpose_of(corners, gradient);
     }
-    if (keep) (*keep)[block] = std::move(samples);
   });
   context.progress("fit", 0.5);
 }

@@ -22,7 +22,8 @@ class ColorSystem : public NormalEquations {
  public:
   /// Scans the picture. The correction is damped as if every square pixel had another equation of
   /// weight options.regularization that asks for no correction. With `keep` the samples are left
-  /// there. The equations of `overshoot` are added to the others.
+  /// there, or taken from there when it holds those of the same geometry. The equations of
+  /// `overshoot` are added to the others.
   ColorSystem(const PatchMesh& patches, const Raster& picture, const FitOptions& options,
               const RunContext& context, std::vector<SampleBlock>* keep = nullptr,
               const Overshoot& overshoot = {});
@@ -44,7 +45,11 @@ class ColorSystem : public NormalEquations {
   const std::vector<ElementGroup>& groups() const { return groups_; }
 
  private:
-  void assemble(const PatchMesh& patches, const Raster& picture, double regularization,
+  /// The scan has one sample per pixel.
+  ColorSystem(const PatchScan& scan, const Raster& picture, const FitOptions& options,
+              const RunContext& context, std::vector<SampleBlock>* keep,
+              const Overshoot& overshoot);
+  void assemble(const PatchScan& scan, const Raster& picture, double regularization,
                 const RunContext& context, std::vector<SampleBlock>* keep);
   void invert_blocks();
   template <class Body>

@@ -12,8 +12,10 @@
 namespace quadrille {
 
 FittedState::FittedState(PatchMesh start, const Raster& picture, const FitOptions& fit_options,
-                         const RunContext& context)
-    : patches(std::move(start)), colors(patches, picture, fit_options, context, &samples) {
+                         const RunContext& context, std::vector<SampleBlock> known)
+    : patches(std::move(start)),
+      samples(std::move(known)),
+      colors(patches, picture, fit_options, context, &samples) {
   correction_.assign(patches.wedges.size(), WedgeUnknowns::Zero());
   improve(picture, fit_options, context);
 }
@@ -25,12 +27,9 @@ void FittedState::improve(const Raster& picture, const FitOptions& options,
 }
 
 float FittedState::squared_error_at(const Raster& picture, std::size_t pixel) const {
-  const Color given = premultiplied_pixel(picture, pixel);
+  const Color residual = 2 * (premultiplied_pixel(picture, pixel) - mean[pixel]);
   float squares = 0;
-  for (int c = 0; c < mean.channels; ++c) {
-    const float residual = 2 * (given[c] - mean.data[pixel * mean.channels + c]);
-    squares += residual * residual;
-  }
+  for (int c = 0; c < picture.channels; ++c) squares += residual[c] * residual[c];
   return squares;
 }
 
@@ -43,18 +42,12 @@ void FittedState::solve(const FitOptions& options, const RunContext& context) {
 
 void FittedState::show(const Raster& picture) {
   squared_error = roughness = 0;
-  mean = picture;
-  if (picture.has_alpha()) {
-    // Where no patch lies the picture stands for it.
-    for (std::size_t i = 0; 4 * i < mean.data.size(); ++i) {
-      const Color color = premultiplied_pixel(picture, i);
-      for (int c = 0; c < 4; ++c) mean.data[4 * i + c] = color[c];
-    }
-  }
+  mean.resize(static_cast<std::size_t>(picture.width) * picture.height);
+  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = premultiplied_pixel(picture, i);
   std::vector<double> errors(samples.size(), 0.0);
   tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t b) {
     for (int local = 0; local < samples[b].patch_count(); ++local) {
-      errors[b] += show_patch(samples[b], local);
+      errors[b] += show_patch(samples[b], local, picture.channels);
     }
   });
   for (const double e : errors) squared_error += e;
@@ -67,7 +60,7 @@ void FittedState::show(const Raster& picture) {
     }
     const Color given = premultiplied_pixel(picture, mixed[row]);
     for (int c = 0; c < picture.channels; ++c) {
-      float& between = mean.data[mixed[row] * picture.channels + c];
+      float& between = mean[mixed[row]][c];
       const double at_center = 2 * (given[c] - between), now = rest[c];
       squared_error += now * now - at_center * at_center;
       between = given[c] - 0.5f * rest[c];
@@ -75,8 +68,8 @@ void FittedState::show(const Raster& picture) {
   }
 }
 
-double FittedState::show_patch(const SampleBlock& block, int local) {
-  const int q = block.first_patch + local, channels = mean.channels;
+double FittedState::show_patch(const SampleBlock& block, int local, int channels) {
+  const int q = block.first_patch + local;
   ControlColors model;
   control_colors(patches, q, corner_maps(patches, q), model);
   double error = 0;
@@ -88,8 +81,7 @@ double FittedState::show_patch(const SampleBlock& block, int local) {
     std::copy_n(block.v.data() + first, count, v);
     evaluate_batch(model, channels, padded_count(count), u, v, shown);
     for (int i = 0; i < count; ++i) {
-      const std::size_t pixel = block.pixel[first + i];
-      float* const between = mean.data.data() + pixel * channels;
+      Color& between = mean[block.pixel[first + i]];
       float squares = 0;
       for (int c = 0; c < channels; ++c) {
         const float residual = between[c] - shown[c][i];

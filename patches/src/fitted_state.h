@@ -10,16 +10,17 @@ namespace quadrille {
 /// Patches with the colours that fit them to a picture, and what is then known of every pixel.
 class FittedState {
  public:
-  /// The colours that the patches have are improved upon. Runs in the caller's tbb arena.
+  /// The colours that the patches have are improved upon. Samples that are known from a state of
+  /// the same geometry need not be found again. Runs in the caller's tbb arena.
   FittedState(PatchMesh start, const Raster& picture, const FitOptions& fit,
-              const RunContext& context);
+              const RunContext& context, std::vector<SampleBlock> known = {});
 
   PatchMesh patches;
   std::vector<SampleBlock> samples;
   ColorSystem colors;
-  /// Halfway between the picture and what the patches show, premultiplied; the picture where no
-  /// patch lies.
-  Raster mean;
+  /// Per pixel, y * width + x, halfway between the picture and what the patches show,
+  /// premultiplied; the picture where no patch lies.
+  std::vector<Color> mean;
   FitReport fit;
   double squared_error = 0, roughness = 0;
 
@@ -34,7 +35,7 @@ class FittedState {
 
   void solve(const FitOptions& options, const RunContext& context);
   void show(const Raster& picture);
-  double show_patch(const SampleBlock& block, int local);
+  double show_patch(const SampleBlock& block, int local, int channels);
 };
 
 }  // namespace quadrille

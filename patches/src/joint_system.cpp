@@ -23,30 +23,25 @@ constexpr float kStiffnessFloor = 1e-9f;
 /// Whether corner k lies at parameter 1.
 constexpr int kAtU[4] = {0, 1, 1, 0}, kAtV[4] = {0, 0, 1, 1};
 
-Color pixel_at(const float* p, int channels) {
-  return {p[0], p[1], p[2], channels == 4 ? p[3] : 0.0f};
-}
-
 /// The samples of one pixel for the batch: the residual, and the gradient of `mean` as the
 /// difference of two neighbours over their distance; at the picture's sides the pixel itself stands
 /// for the neighbour that is missing.
-void add_pixel(const Raster& picture, const Raster& mean, std::size_t pixel, int x, int y, int i,
-               MotionBatch& batch) {
-  const int channels = mean.channels;
-  const std::ptrdiff_t row = std::ptrdiff_t{1} * mean.width * channels;
-  const float* const here = mean.data.data() + pixel * channels;
-  const bool left = x > 0, right = x + 1 < mean.width, above = y > 0, below = y + 1 < mean.height;
+void add_pixel(const Raster& picture, const std::vector<Color>& mean, std::size_t pixel, int x,
+               int y, int i, MotionBatch& batch) {
+  const int row = picture.width;
+  const Color* const here = mean.data() + pixel;
+  const bool left = x > 0, right = x + 1 < row, above = y > 0, below = y + 1 < picture.height;
   const float across = left && right ? 0.5f : 1.0f, down = above && below ? 0.5f : 1.0f;
-  const auto at = [&](std::ptrdiff_t step) { return pixel_at(here + step, channels); };
-  batch.gradient[0][i] = (at(right ? channels : 0) - at(left ? -channels : 0)) * across;
-  batch.gradient[1][i] = (at(below ? row : 0) - at(above ? -row : 0)) * down;
-  batch.residual[i] = 2 * (premultiplied_pixel(picture, pixel) - at(0));
+  batch.gradient[0][i] = (here[right ? 1 : 0] - here[left ? -1 : 0]) * across;
+  batch.gradient[1][i] = (here[below ? row : 0] - here[above ? -row : 0]) * down;
+  batch.residual[i] = 2 * (premultiplied_pixel(picture, pixel) - *here);
 }
 
 /// Adds the samples of the block's patch number `local` to the sums: those at mixed pixels, or the
 /// others. Returns false when there were no more than these.
-bool add_samples(const SampleBlock& samples, int local, const Raster& picture, const Raster& mean,
-                 const MixedPixels& mixed, bool at_mixed, MotionSums& sums) {
+bool add_samples(const SampleBlock& samples, int local, const Raster& picture,
+                 const std::vector<Color>& mean, const MixedPixels& mixed, bool at_mixed,
+                 MotionSums& sums) {
   MotionBatch batch;
   const auto flush = [&] {
     const int padded = padded_count(batch.count);
@@ -147,7 +142,8 @@ void GradientState::turn(float keep) {
 
 JointSystem::JointSystem(ColorSystem& colors, const PatchMesh& patches,
                          const std::vector<SampleBlock>& samples, const Raster& picture,
-                         const Raster& mean, const VertexGuides& guides, double shape_weight)
+                         const std::vector<Color>& mean, const VertexGuides& guides,
+                         double shape_weight)
     : colors_(colors),
       patches_(patches),
       guides_(guides),
@@ -164,7 +160,7 @@ JointSystem::JointSystem(ColorSystem& colors, const PatchMesh& patches,
 }
 
 void JointSystem::assemble_block(const SampleBlock& samples, const Raster& picture,
-                                 const Raster& mean, double shape_weight) {
+                                 const std::vector<Color>& mean, double shape_weight) {
   for (int local = 0; local < samples.patch_count(); ++local) {
     const int q = samples.first_patch + local, lane = q % kLaneCount;
     MotionSums sums{}, torn{};

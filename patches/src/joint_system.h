@@ -24,8 +24,8 @@ class JointSystem {
   /// differences are the gradients. The shape energy counts `shape_weight` times. Keeps references
   /// to the colours, the patches and the guides.
   JointSystem(ColorSystem& colors, const PatchMesh& patches,
-              const std::vector<SampleBlock>& samples, const Raster& picture, const Raster& mean,
-              const VertexGuides& guides, double shape_weight);
+              const std::vector<SampleBlock>& samples, const Raster& picture,
+              const std::vector<Color>& mean, const VertexGuides& guides, double shape_weight);
 
   /// Steps that minimise the quadratic model with `damping` times each vertex's own stiffness added
   /// to it, by conjugate gradients with a block-Jacobi preconditioner to a relative residual of
@@ -43,8 +43,8 @@ class JointSystem {
   std::vector<CornerUnknowns> color_parts_;  // per patch, and for empty places
   std::vector<CornerMoves> move_parts_;
 
-  void assemble_block(const SampleBlock& samples, const Raster& picture, const Raster& mean,
-                      double shape_weight);
+  void assemble_block(const SampleBlock& samples, const Raster& picture,
+                      const std::vector<Color>& mean, double shape_weight);
   void gather_vertices();
   Eigen::Matrix2f inverse_stiffness(int v, float damping) const;
   double multiply(const JointVector& x, float damping, JointVector& product);

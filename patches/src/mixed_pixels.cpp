@@ -91,10 +91,10 @@ struct BlockRows {
 
 }  // namespace
 
-MixedPixels::MixedPixels(const PatchMesh& patches, const Raster& picture, WedgeRows& rows) {
+MixedPixels::MixedPixels(const PatchScan& scan, const Raster& picture, WedgeRows& rows) {
+  const PatchMesh& patches = scan.patches();
   if (!has_mixed_pixels(patches.mesh, picture)) return;
   const SampleWindow whole = {0, 0, picture.width, picture.height};
-  const PatchScan scan(patches, SampleGrid{});
   std::vector<int> all(patches.patch_count());
   std::iota(all.begin(), all.end(), 0);
   PatchBins bins;

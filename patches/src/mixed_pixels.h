@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "quadrille/patch_mesh.h"
+#include "patch_scan.h"
 #include "quadrille/raster.h"
 #include "wedge_rows.h"
 
@@ -16,8 +16,8 @@ namespace quadrille {
 class MixedPixels {
  public:
   /// Finds the pixels and adds their equations to `rows`, which is empty. None when the mesh has no
-  /// tears and fills the picture.
-  MixedPixels(const PatchMesh& patches, const Raster& picture, WedgeRows& rows);
+  /// tears and fills the picture. The scan has one sample per pixel.
+  MixedPixels(const PatchScan& scan, const Raster& picture, WedgeRows& rows);
 
   /// The pixels, y * width + x, in the order of their rows.
   const std::vector<std::size_t>& pixels() const { return pixels_; }

@@ -55,14 +55,16 @@ struct Trial {
   PatchMesh patches;
   std::vector<float> errors;  // #pixels, squared and summed over the channels
 
-  /// Geometry from `tangents`.
+  /// Geometry from `tangents`; its samples are left for the next trial.
   Trial(QuadMesh mesh, const std::vector<std::array<Eigen::Vector2d, 2>>& tangents,
-        const Raster& picture, const FitOptions& fit, const RunContext& context)
+        const Raster& picture, const FitOptions& fit, const RunContext& context,
+        std::vector<SampleBlock>& samples)
       : patches(straight_patches(std::move(mesh))) {
     patches.edge_tangents = tangents;
     fit_colors(patches, picture, {.method = FitMethod::bessel}, context);
-    FittedState state(std::move(patches), picture, fit, context);
+    FittedState state(std::move(patches), picture, fit, context, std::move(samples));
     patches = std::move(state.patches);
+    samples = std::move(state.samples);
     errors.reserve(static_cast<std::size_t>(picture.width) * picture.height);
     for (std::size_t i = 0; i < errors.capacity(); ++i) {
       errors.push_back(state.squared_error_at(picture, i));
@@ -187,12 +189,13 @@ std::vector<char> paying_chains(const QuadMesh& mesh, const std::vector<std::vec
   std::vector<char> is_torn(chains.size(), 0);
   const QuadMesh everything = with_chains(mesh, chains, std::vector<char>(chains.size(), 1));
   const auto tangents = smooth_tangents(everything);
-  const Trial all(everything, tangents, picture, draft, context);
+  std::vector<SampleBlock> samples;
+  const Trial all(everything, tangents, picture, draft, context, samples);
   const Neighbourhoods near(all.patches.mesh, chains);
   const auto neighbours = near.neighbours();
   const Judge judge(near, all, picture, options);
   for (int round = 0; round < kRounds; ++round) {
-    const Trial now(with_chains(mesh, chains, is_torn), tangents, picture, draft, context);
+    const Trial now(with_chains(mesh, chains, is_torn), tangents, picture, draft, context, samples);
     const std::vector<int> wedges = wedge_counts(now.patches);
     std::vector<double> drop(chains.size(), 0);  // per edge
     for (std::size_t c = 0; c < chains.size(); ++c) {

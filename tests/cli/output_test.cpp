@@ -197,7 +197,13 @@ TEST_F(Output, CompareMeasuresAndDecides) {
   EXPECT_EQ(above.exit_code, 1);
   EXPECT_TRUE(is_one_complaint(above.err)) << above.err;
 
-  const CommandResult sizes = quadrille({"compare", picture(), sample("formats/one_pixel.png")});
+  const std::string tiny = sample("formats/one_pixel.png");
+  EXPECT_EQ(quadrille({"compare", tiny, tiny}).out,
+            "MAE  0.0000\nPSNR 99.000 dB\nSSIM undefined below 7 x 7 pixels\n");
+  EXPECT_TRUE(
+      nlohmann::json::parse(quadrille({"compare", tiny, tiny, "--json"}).out)["ssim"].is_null());
+
+  const CommandResult sizes = quadrille({"compare", picture(), tiny});
   EXPECT_EQ(sizes.exit_code, 1);
   EXPECT_THAT(sizes.err, HasSubstr("250 x 250"));
 }

@@ -218,7 +218,7 @@ TEST(MixedPixels, AgreeWithTheRenderer) {
     const PatchMesh patches = torn_patches(3, opaque);
     const Raster picture = render(single_layer(patches, 150, 100));
     WedgeRows rows;
-    const MixedPixels mixed(patches, picture, rows);
+    const MixedPixels mixed(PatchScan(patches, SampleGrid{}), picture, rows);
     rows.finish(patches.wedges.size());
     ASSERT_FALSE(mixed.pixels().empty());
     rows.evaluate_residual();
@@ -233,7 +233,7 @@ TEST(MixedPixels, AgreeWithTheRenderer) {
 TEST(MixedPixels, AreNoneWithoutTearsInAPictureThatIsFilled) {
   const PatchMesh patches = random_patches(5, 4, 50, 40, 2);
   WedgeRows rows;
-  const MixedPixels mixed(patches, Raster(50, 40, 3), rows);
+  const MixedPixels mixed(PatchScan(patches, SampleGrid{}), Raster(50, 40, 3), rows);
   EXPECT_EQ(rows.size(), 0);
   EXPECT_TRUE(mixed.pixels().empty());
   EXPECT_FALSE(mixed.contains(20 * 50 + 20));

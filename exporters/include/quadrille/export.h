@@ -31,7 +31,7 @@ struct RasterFileOptions {
 /// more.
 enum class SvgLevel {
   compact,   ///< t = 3.4
-  balanced,  ///< t = 1.25
+  balanced,  ///< t = 1.32
   faithful,  ///< t = 0.8, and coordinates to 1/8 of a pixel instead of 1/2 (ten times finer along
              ///< tears and the outline)
   hybrid,    ///< one pixel image per side of the tears behind exact outlines: not independent of
