@@ -18,7 +18,7 @@ void remember(int signal) {
 void catch_interrupts() {
   // A file over the user's limit is then an error like a full disk, which leaves nothing behind.
   std::signal(SIGXFSZ, SIG_IGN);
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     // Whoever started us ignoring it (nohup, a background job) wants that kept.
     if (std::signal(signal, remember) == SIG_IGN) std::signal(signal, SIG_IGN);
   }

@@ -28,7 +28,7 @@ struct LevelDetail {
 LevelDetail detail_of(SvgLevel level) {
   switch (level) {
     case SvgLevel::compact:
-      return {3.4, 2};
+      return {3.8, 2};
     case SvgLevel::faithful:
       return {0.8, 8};
     case SvgLevel::balanced:
@@ -36,7 +36,7 @@ LevelDetail detail_of(SvgLevel level) {
     case SvgLevel::inkscape:
       break;
   }
-  return {1.32, 2};
+  return {1.45, 2};
 }
 
 class SvgFile {

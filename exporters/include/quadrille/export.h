@@ -30,8 +30,8 @@ struct RasterFileOptions {
 /// where bands of gradients would show, t is down to half of that, in busy ones up to a twelfth
 /// more.
 enum class SvgLevel {
-  compact,   ///< t = 3.4
-  balanced,  ///< t = 1.32
+  compact,   ///< t = 3.8
+  balanced,  ///< t = 1.45
   faithful,  ///< t = 0.8, and coordinates to 1/8 of a pixel instead of 1/2 (ten times finer along
              ///< tears and the outline)
   hybrid,    ///< one pixel image per side of the tears behind exact outlines: not independent of
