@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -197,16 +198,18 @@ TEST(Refusal, AnInterruptedRunLeavesNothing) {
   const fs::path log = scratch_dir() / "interrupt.txt";
   // Waits for the first finished stage, so that the signal arrives in the middle of the work.
   const std::string script =
-      "log=$1; shift; \"$@\" 2>\"$log\" & pid=$!; "
-      "until grep -q read \"$log\"; do sleep 0.02; done; kill -TERM $pid; wait $pid";
-  fs::remove(log);
-  std::ofstream{log};
-  const int exit_code = run({"sh", "-c", script, "sh", log.string(), QUADRILLE_COMMAND,
-                             sample("formats/exif_portrait_8.jpg"), "-o",
-                             (folder / "a.svg").string(), "--quads", "60000", "-v"});
-  EXPECT_EQ(exit_code, 128 + 15);
-  EXPECT_THAT(bytes_of(log), HasSubstr("quadrille: cancelled"));
-  EXPECT_THAT(files_in(folder), IsEmpty());
+      "log=$1; signal=$2; shift 2; \"$@\" 2>\"$log\" & pid=$!; "
+      "until grep -q read \"$log\"; do sleep 0.02; done; kill -$signal $pid; wait $pid";
+  for (const int signal : {SIGTERM, SIGHUP}) {
+    fs::remove(log);
+    std::ofstream{log};
+    const int exit_code = run({"sh", "-c", script, "sh", log.string(), std::to_string(signal),
+                               QUADRILLE_COMMAND, sample("formats/exif_portrait_8.jpg"), "-o",
+                               (folder / "a.svg").string(), "--quads", "60000", "-v"});
+    EXPECT_EQ(exit_code, 128 + signal);
+    EXPECT_THAT(bytes_of(log), HasSubstr("quadrille: cancelled"));
+    EXPECT_THAT(files_in(folder), IsEmpty());
+  }
 }
 
 }  // namespace
