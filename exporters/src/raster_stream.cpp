@@ -107,11 +107,13 @@ void check_options(const RasterFormat& format, const RasterStream& stream,
                                                  " is out of range; use 1 to 100");
   }
   if (std::max(stream.width, stream.height) > format.largest_side) {
-    throw Error(ErrorCode::limit_exceeded,
-                "a picture of " + std::to_string(stream.width) + " x " +
-                    std::to_string(stream.height) + " pixels does not fit into a " + format.name +
-                    " file, whose sides end at " + std::to_string(format.largest_side) +
-                    "; use a smaller scale or write PNG or TIFF");
+    throw Error(
+        ErrorCode::limit_exceeded,
+        "cannot write '" + path.string() + "': a picture of " + std::to_string(stream.width) +
+            " x " + std::to_string(stream.height) + " pixels does not fit into a " + format.name +
+            " file, whose sides end at " + std::to_string(format.largest_side) +
+            "; use a smaller scale" +
+            (format.largest_side < kFormats[0].largest_side ? " or write PNG or TIFF" : ""));
   }
 }
 

@@ -117,11 +117,13 @@ void fill_by_halves(Texture& texture, int first, int count,
 
 }  // namespace
 
-void fill_unknown(Texture& texture, int first, int count, std::vector<std::uint8_t> known) {
+std::vector<std::uint8_t> fill_unknown(Texture& texture, int first, int count,
+                                       std::vector<std::uint8_t> known) {
   constexpr int kRings = 4;
-  if (std::find(known.begin(), known.end(), 0) == known.end()) return;
+  if (std::find(known.begin(), known.end(), 0) == known.end()) return known;
   Grower(texture, first, count, known).grow(kRings);
   fill_by_halves(texture, first, count, known);
+  return known;
 }
 
 }  // namespace quadrille

@@ -207,7 +207,7 @@ SheetTexture sheet_texture(const VectorImage& image, const SheetedLayer& layer, 
     fill_unknown(texture, 0, 3, known);
     return result;
   }
-  fill_unknown(texture, 3, 1, known);
+  result.is_near = fill_unknown(texture, 3, 1, known);
   for (std::size_t i = 0; i < texels; ++i) {
     if (texture.data[4 * i + 3] == 0) known[i] = 0;
   }

@@ -24,6 +24,9 @@ enum class AlphaMode { opaque, mask, blend };
 struct SheetTexture {
   Texture texture;
   AlphaMode alpha_mode = AlphaMode::opaque;
+  /// Per texel whether the sheet's patches touch it or lie within a few texels: what is filled
+  /// farther off says nothing about the picture. Empty for opaque ones.
+  std::vector<std::uint8_t> is_near;
   /// The part of the picture that the texture shows, in texels from the picture's top left, and the
   /// texels of the whole picture.
   PixelRegion region;
@@ -43,7 +46,9 @@ SheetTexture sheet_texture(const VectorImage& image, const SheetedLayer& layer, 
 
 /// Replaces the channels [first, first + count) of every texel that is not known: within four
 /// texels of known ones by what is next to them, farther off by the mean of known texels in its
-/// surroundings. `known` has one entry per texel. Does nothing when none is known.
-void fill_unknown(Texture& texture, int first, int count, std::vector<std::uint8_t> known);
+/// surroundings. `known` has one entry per texel. Does nothing when none is known. Returns `known`
+/// with the texels within four.
+std::vector<std::uint8_t> fill_unknown(Texture& texture, int first, int count,
+                                       std::vector<std::uint8_t> known);
 
 }  // namespace quadrille

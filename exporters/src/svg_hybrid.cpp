@@ -20,18 +20,22 @@ namespace {
 constexpr int kUnitsPerPixel = 8;
 constexpr double kTexelsPerPixel = 1;
 
-/// The alpha of a texture as an opaque gray picture.
-Texture alpha_of(const Texture& texture) {
+/// The sheet's alpha as an opaque gray picture. It has none away from its patches: where they end
+/// the layer, programs that clip twice at the same edge would let it through.
+Texture alpha_of(const SheetTexture& sheet) {
+  const Texture& texture = sheet.texture;
   Texture gray{texture.width, texture.height, 3, {}};
   const std::size_t texels = std::size_t(texture.width) * texture.height;
   gray.data.resize(3 * texels, 255);
   for (std::size_t i = 0; texture.channels == 4 && i < texels; ++i) {
-    for (int c = 0; c < 3; ++c) gray.data[3 * i + c] = texture.data[4 * i + 3];
+    const std::uint8_t alpha = sheet.is_near[i] ? texture.data[4 * i + 3] : 0;
+    for (int c = 0; c < 3; ++c) gray.data[3 * i + c] = alpha;
   }
   return gray;
 }
 
-Texture colors_of(const Texture& texture) {
+Texture colors_of(const SheetTexture& sheet) {
+  const Texture& texture = sheet.texture;
   if (texture.channels == 3) return texture;
   Texture colors{texture.width, texture.height, 3, {}};
   const std::size_t texels = std::size_t(texture.width) * texture.height;
@@ -145,11 +149,11 @@ class HybridSvgWriter {
   }
 
   void write_sheets(const SheetedLayer& layer, const std::vector<SheetTexture>& textures,
-                    const std::string& id, Texture (*channels)(const Texture&)) {
+                    const std::string& id, Texture (*channels)(const SheetTexture&)) {
     for (int sheet = 0; sheet < layer.sheet_count(); ++sheet) {
       begin_clip(layer, sheet_outline(layer, sheet),
                  id + "-sheet-" + to_text(static_cast<long long>(sheet + 1)));
-      write_image(textures[sheet], channels(textures[sheet].texture));
+      write_image(textures[sheet], channels(textures[sheet]));
       out_ << "</g>\n";
     }
   }

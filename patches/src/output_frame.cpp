@@ -17,9 +17,9 @@ bool positive(double x) { return std::isfinite(x) && x > 0; }
 int checked_side(double side, const char* name) {
   const double rounded = std::max(1.0, std::round(side));
   if (!(rounded <= kLargestSide)) {
-    throw Error(ErrorCode::limit_exceeded, std::string("an output ") + name + " of " +
-                                               std::to_string(rounded) +
-                                               " pixels is above 2^30; choose a smaller scale");
+    throw Error(ErrorCode::limit_exceeded,
+                std::string("the output's ") + name +
+                    " would be above 2^30 pixels; choose a smaller scale");
   }
   return static_cast<int>(rounded);
 }
