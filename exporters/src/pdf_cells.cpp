@@ -160,9 +160,9 @@ Fit fitted(const Target& target, const HatBasis& u, const HatBasis& v) {
   for (int c = 0; c < target.channels; ++c) {
     const Eigen::MatrixXf nodes = u.fit * target.channel[c] * v.fit.transpose();
     fit.nodes[c] = (nodes.array() + kRounding).max(0.0f).min(255.0f).floor();
-    const auto& n = fit.nodes[c];
-    const Eigen::MatrixXf shown = (n.array() < 255).select(n.array() - kAdded, n.array());
-    Samples error = (u.hats * shown * v.hats.transpose() - target.channel[c]).cwiseAbs();
+    // What rounding up may have added is no error.
+    const Samples above = u.hats * fit.nodes[c] * v.hats.transpose() - target.channel[c];
+    Samples error = above.cwiseAbs().cwiseMin((above.array() - kAdded).abs().matrix());
     if (target.weighted) error = error.cwiseProduct(target.weight);
     fit.mean_squared += error.squaredNorm() / double(target.channels * error.size());
     fit.largest = std::max(fit.largest, double(error.maxCoeff()));

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <vector>
 
 #include "svg_ridge.h"
 

@@ -8,7 +8,7 @@
 namespace quadrille {
 
 /// The vector of a linear gradient: its ends in the unit square that the bounds of what is painted
-/// are scaled to (objectBoundingBox), in decimals as they are written.
+/// are scaled to (objectBoundingBox); own ones in decimals as they are written.
 struct GradientVector {
   Eigen::Vector2d from = {0, 0}, to = {1, 0};
   bool is_common = true;  ///< of the few directions and ranges that serve most cells

@@ -201,11 +201,14 @@ TEST(Refusal, AnInterruptedRunLeavesNothing) {
       "log=$1; signal=$2; shift 2; \"$@\" 2>\"$log\" & pid=$!; "
       "until grep -q read \"$log\"; do sleep 0.02; done; kill -$signal $pid; wait $pid";
   for (const int signal : {SIGTERM, SIGHUP}) {
+    // Under nohup the command would go on ignoring it.
+    const auto handler = std::signal(signal, SIG_DFL);
     fs::remove(log);
     std::ofstream{log};
     const int exit_code = run({"sh", "-c", script, "sh", log.string(), std::to_string(signal),
                                QUADRILLE_COMMAND, sample("formats/exif_portrait_8.jpg"), "-o",
                                (folder / "a.svg").string(), "--quads", "60000", "-v"});
+    std::signal(signal, handler);
     EXPECT_EQ(exit_code, 128 + signal);
     EXPECT_THAT(bytes_of(log), HasSubstr("quadrille: cancelled"));
     EXPECT_THAT(files_in(folder), IsEmpty());

@@ -24,5 +24,17 @@ TEST(FitCells, RoundingColorsUpIsNoErrorThatMoreCellsCouldMend) {
   }
 }
 
+TEST(FitCells, WholeStepsTakeOneCellAtTheLeastTolerance) {
+  for (const int step : {0, 100, 255}) {
+    PatchMesh patches = straight_patches(testing::lattice(1, 1, kSize, kSize));
+    const float gray = float(step) / 255;
+    testing::set_linear_colors(patches, Color(gray, gray, gray, 1), Color::Zero(), Color::Zero());
+    const VectorImage image = testing::single_layer(std::move(patches), kSize, kSize);
+    const PatchCells cells = fit_cells(image.layers[0], 0, ShadedQuantity::color, 0.5);
+    EXPECT_EQ(cells.count.u, 1) << step;
+    EXPECT_EQ(cells.count.v, 1) << step;
+  }
+}
+
 }  // namespace
 }  // namespace quadrille

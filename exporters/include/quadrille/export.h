@@ -33,7 +33,7 @@ enum class SvgLevel {
   compact,   ///< t = 3.8
   balanced,  ///< t = 1.45
   faithful,  ///< t = 0.8, and coordinates to 1/8 of a pixel instead of 1/2 (ten times finer along
-             ///< tears and the outline)
+             ///< tears and the outline, and at every level where the picture is steep)
   hybrid,    ///< one pixel image per side of the tears behind exact outlines: not independent of
              ///< the resolution inside
   inkscape,  ///< mesh gradients that Inkscape draws and edits; others show flat colours
@@ -54,7 +54,8 @@ struct PdfOptions {
   /// points, which are 19,200 pixels at 96.
   double dpi = 96;
   /// Colour error of a patch in 8-bit steps, at most half of it in the root mean square and at most
-  /// twice of it anywhere, but for details below a pixel; at least 0.5.
+  /// twice of it anywhere, but for details below a pixel and up to 3/8 of a step by which colours
+  /// are rounded up, as viewers cut off what is left of them; at least 0.5.
   double tolerance = 2;
   std::string title = "Quadrille picture";
 };
