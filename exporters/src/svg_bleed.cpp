@@ -2,40 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
-#include "patch_sides.h"
+#include "svg_bleed_reach.h"
 
 namespace quadrille {
 namespace {
 
 using Eigen::Vector2d;
-using Geometry = BicubicHermite<Vector2d>;
-
 /// How far cells go on beyond a clip, in bleeds: all over the pixels that the clip halves.
 constexpr double kClippedBleed = 1.5;
 /// The least sine of the angle between a side and the next along which a corner moves, the cosines
 /// between two bleeds from which they are about one, and below which they make a spike; and the
 /// least ratio of their lengths with which they meet.
 constexpr double kLeastSlope = 0.5, kStraight = 0.95, kSpike = -0.3, kLeastRatio = 0.7;
-/// How often a bleed is halved.
-constexpr int kMostHalvings = 4;
 /// The error that rounded seams may leave, in 8-bit steps, and bleeds as a share of their length.
 constexpr double kSlopeError = 8, kBleedShare = 0.25;
+/// And the most that corners at tears may be moved, in pixels: something of any colour lies below.
+constexpr double kTornCorner = 0.04;
 /// How far before its ends a bleed ends beside what has none, where masks are painted, in pixels.
 constexpr double kInset = 0.5;
-/// How many thin patches a bleed crosses at most.
-constexpr int kMostCrossed = 4;
 /// Holes with more cells than this are kept.
 constexpr std::size_t kMostHoleCells = 64;
-
-Vector2d point_at(const Geometry& g, const Vector2d& uv) { return g.at(uv.x(), uv.y()); }
 
 class Outliner {
  public:
   Outliner(const CellMesh& mesh, const CellGroup& group, double bleed)
-      : mesh_(mesh), layer_(mesh.layer()), group_(group), bleed_(bleed) {}
+      : mesh_(mesh), layer_(mesh.layer()), group_(group), bleed_(bleed), reach_(mesh, group) {}
 
   std::vector<SvgOutline> run() {
     for (const int c : group_.cells) {
@@ -146,20 +142,24 @@ class Outliner {
     if (ends && starts) {
       if (const auto both = meeting(end, begin, before, after)) return add_bleed(to, corner, *both);
       add_bleed(to, corner, end.step);
-      to.add(corner);
+      to.add(corner, corner_tolerance(before, after));
       return add_bleed(to, corner, begin.step);
     }
     if (ends) {
-      add_end(to, corner, along(-direction_at_start(after), end), -direction_at_end(before));
+      const Vector2d step = along(-direction_at_start(after), end);
+      add_end(to, corner, may_go_on(before, after, step) ? step : end.step,
+              -direction_at_end(before));
     }
     // The start of an exact side is added with it.
     if (beyond(after) != CellMesh::Beyond::nothing) {
       const double slope =
           std::max(ends ? 0 : slope_at_end(before), starts ? 0 : mesh_.slope(after, 0));
-      to.add(corner, tolerance_for(slope));
+      to.add(corner, std::min(tolerance_for(slope), corner_tolerance(before, after)));
     }
     if (starts) {
-      add_end(to, corner, along(direction_at_end(before), begin), direction_at_start(after));
+      const Vector2d step = along(direction_at_end(before), begin);
+      add_end(to, corner, may_go_on(after, after, step) ? step : begin.step,
+              direction_at_start(after));
     }
   }
 
@@ -172,7 +172,20 @@ class Outliner {
     to.add(corner + step + beyond * inward, 0);
   }
 
+  /// The bleed of a side at these parameters on it.
+  Vector2d step_beyond(int s, const Vector2d& uv) const {
+    const bool is_clip = beyond(s) == CellMesh::Beyond::clip;
+    return is_clip ? reach_.step(s, uv, kClippedBleed * bleed_, true)
+                   : reach_.step(s, uv, bleed_, false);
+  }
+
   static double tolerance_for(double slope) { return kSlopeError / std::max(slope, 1e-9); }
+  /// How far the corner between two sides may be moved.
+  double corner_tolerance(int before, int after) const {
+    const bool on_tear =
+        mesh_.side(before).is_torn || mesh_.side(after).is_torn || starts_at_tear(after);
+    return on_tear ? kTornCorner : std::numeric_limits<double>::infinity();
+  }
   double slope_at_end(int s) const {
     return mesh_.slope(s, static_cast<int>(mesh_.points(s).size()) - 1);
   }
@@ -215,14 +228,62 @@ class Outliner {
     const double turn = n.x() * m.y() - n.y() * m.x();  // positive where the group is convex
     if (turn > 0 && !all_later_around(before, after)) return {};
     const double divisor = 1 - cosine * cosine;
-    return (a - cosine * b) / divisor * n + (b - cosine * a) / divisor * m;
+    const Vector2d step = (a - cosine * b) / divisor * n + (b - cosine * a) / divisor * m;
+    for (const int s : {before, after}) {
+      const bool is_clip = beyond(s) == CellMesh::Beyond::clip;
+      if (!is_clip && reach_.crosses_tear(s, start(after), step)) return {};
+    }
+    return step;
+  }
+
+  /// The fan around the vertex at which a side starts; empty when it starts elsewhere.
+  std::span<const int> fan_at_start(int s) const {
+    const CellMesh::Side& side = mesh_.side(s);
+    const auto is_end = [](double t) { return t == 0 || t == 1; };
+    if (!is_end(side.from.x()) || !is_end(side.from.y())) return {};
+    const int corner =
+        side.from.y() == 0 ? (side.from.x() == 0 ? 0 : 1) : (side.from.x() == 0 ? 3 : 2);
+    const QuadMesh& quads = layer_.mesh();
+    return quads.fan(quads.origin(4 * mesh_.quad(side.cell) + corner));
+  }
+
+  bool starts_at_tear(int s) const {
+    const auto fan = fan_at_start(s);
+    return std::any_of(fan.begin(), fan.end(),
+                       [&](int h) { return layer_.mesh().is_tear(layer_.mesh().edge(h)); });
+  }
+
+  /// True when a bleed may lead along this step from the start of side `after`: at a vertex of a
+  /// tear not onto what is painted earlier, unless a clip cuts it off there.
+  bool may_go_on(int bleeding, int after, const Vector2d& step) const {
+    if (!starts_at_tear(after)) return true;
+    const auto fan = fan_at_start(after);
+    const int own = mesh_.quad(mesh_.side(bleeding).cell);
+    const bool is_clip = beyond(bleeding) == CellMesh::Beyond::clip;
+    return std::none_of(fan.begin(), fan.end(), [&](int h) {
+      const int quad = QuadMesh::quad_of(h);
+      return leads_into(step, h) && !is_hidden_in(own, h) &&
+             !(is_clip && layer_.part(quad) != layer_.part(own));
+    });
+  }
+
+  /// True when a step from the origin of half-edge h leads into its quad.
+  bool leads_into(const Vector2d& step, int h) const {
+    const PlaneCurve out = edge_curve(layer_.layer(), h);
+    const PlaneCurve in = edge_curve(layer_.layer(), QuadMesh::prev(h));
+    const auto turn_to = [&, from = direction(out[0], out[1], out[3])](const Vector2d& to) {
+      const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+      return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+    };
+    return turn_to(step) < turn_to(direction(in[3], in[2], in[0]));
   }
 
   /// True when all other cells around the start of side `after` are painted later.
   bool all_later_around(int before, int after) const {
-    const CellMesh::Side& side = mesh_.side(after);
-    const auto is_end = [](double t) { return t == 0 || t == 1; };
-    if (is_end(side.from.x()) && is_end(side.from.y())) return all_later_at_vertex(after);
+    if (const auto fan = fan_at_start(after); !fan.empty()) {
+      const int own = mesh_.quad(mesh_.side(after).cell);
+      return std::all_of(fan.begin(), fan.end(), [&](int h) { return is_hidden_in(own, h); });
+    }
     int s = mesh_.side(before).twin;
     while (s >= 0) {
       s = mesh_.side(s).prev;
@@ -234,20 +295,11 @@ class Outliner {
     return true;
   }
 
-  bool all_later_at_vertex(int after) const {
-    const CellMesh::Side& side = mesh_.side(after);
-    const int q = mesh_.quad(side.cell);
-    const int corner =
-        side.from.y() == 0 ? (side.from.x() == 0 ? 0 : 1) : (side.from.x() == 0 ? 3 : 2);
-    const QuadMesh& quads = layer_.mesh();
-    const auto fan = quads.fan(quads.origin(4 * q + corner));
-    return std::all_of(fan.begin(), fan.end(), [&](int h) {
-      const int cell = mesh_.cell_at(h);
-      if (cell >= 0) return group_.holds(cell) || group_.is_later(cell);
-      const int other = QuadMesh::quad_of(h);
-      return layer_.opacity(other) == PatchOpacity::transparent ||
-             layer_.is_painted_later(q, other);
-    });
+  /// True when the bleed of a patch is hidden at the origin of half-edge h in its quad.
+  bool is_hidden_in(int own, int h) const {
+    const int cell = mesh_.cell_at(h), quad = QuadMesh::quad_of(h);
+    if (cell >= 0) return group_.holds(cell) || group_.is_later(cell);
+    return layer_.opacity(quad) == PatchOpacity::transparent || layer_.is_painted_later(own, quad);
   }
 
   Vector2d start(int s) const { return mesh_.points(s).front(); }
@@ -264,96 +316,13 @@ class Outliner {
     return (to_near.norm() > 1e-6 ? to_near : Vector2d(far - from)).normalized();
   }
 
-  /// The bleed of a side at one of its points. Where cells are thin, others that are painted
-  /// earlier may lie beyond them: it is halved until it ends in a cell that is painted later.
-  Vector2d step_beyond(int s, const Vector2d& uv) const {
-    const CellMesh::Side& side = mesh_.side(s);
-    const Geometry& g = mesh_.geometry(side.cell);
-    const Vector2d point = point_at(g, uv);
-    const bool is_clip = beyond(s) == CellMesh::Beyond::clip;
-    double bleed = is_clip ? kClippedBleed * bleed_ : bleed_;
-    const int q = mesh_.quad(side.cell), twin = layer_.mesh().twin(4 * q + side.k);
-    if (side.on_border && layer_.is_border(4 * q + side.k)) return outward(g, side, uv, bleed);
-    Vector2d target = point;
-    for (int halving = 0; halving < kMostHalvings; ++halving, bleed *= 0.5) {
-      const auto [quad, at] = side.on_border ? across_border(side, uv, twin, bleed)
-                                             : std::pair(q, across_line(g, side, uv, bleed));
-      const int cell = mesh_.cell_with(quad, at);
-      target = point_at(geometry(quad), at);
-      if (is_clip || cell < 0 || group_.holds(cell) || group_.is_later(cell)) break;
-    }
-    return target - point;
-  }
-
-  /// Parameters beyond a side within a patch.
-  static Vector2d across_line(const Geometry& g, const CellMesh::Side& side, const Vector2d& uv,
-                              double bleed) {
-    const bool across_u = side.k == 1 || side.k == 3;
-    const int axis = across_u ? 0 : 1;
-    const double step = parameter_step(g, uv, across_u, bleed);
-    Vector2d target = uv;
-    target[axis] = std::clamp(uv[axis] + (side.k == 1 || side.k == 2 ? step : -step), 0.0, 1.0);
-    return target;
-  }
-
-  /// The patch beyond a side that lies on the border of its own, and parameters there. Thin patches
-  /// are crossed as long as they are painted later.
-  std::pair<int, Vector2d> across_border(const CellMesh::Side& side, const Vector2d& uv, int twin,
-                                         double bleed) const {
-    const double along = side.k == 1 || side.k == 3 ? uv.y() : uv.x();
-    const double place = side.k < 2 ? 1 - along : along;
-    const QuadMesh& quads = layer_.mesh();
-    const int own = mesh_.quad(side.cell);
-    for (int crossed = 0, h = twin;; ++crossed) {
-      const int quad = QuadMesh::quad_of(h), k = QuadMesh::corner_of(h);
-      const Geometry& its = geometry(quad);
-      const double depth = parameter_step(its, on_side(k, place), k == 1 || k == 3, bleed);
-      const int far = 4 * quad + ((k + 2) & 3), next = quads.twin(far);
-      const double width =
-          (point_at(its, on_side(k, place, 1)) - point_at(its, on_side(k, place))).norm();
-      const bool is_thin =
-          bleed > 0.5 * width && crossed < kMostCrossed && next >= 0 &&
-          !quads.is_tear(quads.edge(far)) && is_covered(own, quad, on_side(k, place, 0.5)) &&
-          is_covered(own, QuadMesh::quad_of(next), on_side(QuadMesh::corner_of(next), place));
-      if (!is_thin) return {quad, on_side(k, place, depth)};
-      if (bleed <= width) return {quad, on_side(k, place, bleed / width)};
-      bleed -= width;
-      h = next;
-    }
-  }
-
-  /// True when the group, or what is painted later, is at these parameters.
-  bool is_covered(int own, int quad, const Vector2d& uv) const {
-    const int cell = mesh_.cell_with(quad, uv);
-    return cell < 0 ? layer_.is_painted_later(own, quad)
-                    : group_.holds(cell) || group_.is_later(cell);
-  }
-
-  /// The same beyond the border of the mesh.
-  static Vector2d outward(const Geometry& g, const CellMesh::Side& side, const Vector2d& uv,
-                          double bleed) {
-    const bool along_u = side.k == 0 || side.k == 2;
-    Vector2d along = along_u ? g.derivative_u(uv.x(), uv.y()) : g.derivative_v(uv.x(), uv.y());
-    if (side.k >= 2) along = -along;
-    const Vector2d du = g.derivative_u(0.5, 0.5), dv = g.derivative_v(0.5, 0.5);
-    const double orientation = du.x() * dv.y() < du.y() * dv.x() ? -1 : 1;
-    return orientation * bleed * Vector2d(along.y(), -along.x()).normalized();
-  }
-
-  const Geometry& geometry(int quad) const {
-    if (const Geometry* known = mesh_.find_geometry(quad)) return *known;
-    if (quad != neighbor_) neighbor_geometry_ = layer_.geometry(neighbor_ = quad);
-    return neighbor_geometry_;
-  }
-
   const CellMesh& mesh_;
   const SvgLayer& layer_;
   const CellGroup& group_;
   double bleed_;
+  BleedReach reach_;
   std::vector<int> outer_;  ///< sides of the group, ascending
   std::vector<char> seen_;
-  mutable int neighbor_ = -1;
-  mutable Geometry neighbor_geometry_;
 };
 
 }  // namespace

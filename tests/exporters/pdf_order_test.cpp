@@ -56,6 +56,29 @@ TEST(PaintGroups, ARegionEndsAtATearThoughThePatchBeyondLiesSmoothlyBesideTheGro
   EXPECT_TRUE(std::any_of(region.begin(), region.end(), has_tear));
 }
 
+TEST(PaintGroups, ARegionLeavesOutPatchesThatTouchTheGroupAcrossTearsAtACornerAlone) {
+  // Quads 0 1 2 and below them 3 4 5, torn between the first column and the second. Quad 4 lies
+  // smoothly beside quad 5, but on the other side of the tears from quad 0.
+  QuadMesh mesh = testing::lattice(3, 2, 3, 2);
+  PaintGroups groups;
+  groups.group = {1, 0, 0, 0, 0, 1};
+  groups.count = 2;
+  groups.open_border = true;
+  int seam = -1;
+  for (int h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.twin(h) < 0) continue;
+    const int quad = QuadMesh::quad_of(h), other = QuadMesh::quad_of(mesh.twin(h));
+    if (quad % 3 == 0 && other % 3 == 1) mesh.edge_flags[mesh.edge(h)] |= kTearEdge;
+    if (quad == 5 && other == 4) seam = h;
+  }
+  ASSERT_GE(seam, 0);
+  const auto region = group_region(mesh, groups, 1);
+  const auto has_seam = [&](const EdgeLoop& loop) {
+    return std::find(loop.begin(), loop.end(), seam) != loop.end();
+  };
+  EXPECT_TRUE(std::any_of(region.begin(), region.end(), has_seam));
+}
+
 TEST(PaintGroups, RegionsNeverGoAroundPatchesThatCannotBePainted) {
   constexpr int kQuads = 48;
   for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <fstream>
 
+#include "librsvg.h"
 #include "quadrille/error.h"
 #include "quadrille/export.h"
-#include "quadrille/image_file.h"
 #include "quadrille/metrics.h"
 #include "quadrille/render.h"
 #include "support/programs.h"
@@ -17,6 +17,7 @@ namespace quadrille {
 namespace {
 
 namespace fs = std::filesystem;
+using test::drawn_by_librsvg;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -25,18 +26,6 @@ fs::path output(const std::string& name) { return test::scratch_dir() / name; }
 std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// The file as librsvg draws it, on nothing.
-Raster drawn_by_librsvg(const fs::path& svg, const std::array<int, 2>& size) {
-  const fs::path png = fs::path(svg).replace_extension(".png");
-  std::string log;
-  EXPECT_EQ(test::run({"rsvg-convert", "--unlimited", "-w", std::to_string(size[0]), "-h",
-                       std::to_string(size[1]), "-o", png, svg},
-                      &log),
-            0)
-      << log;
-  return load_image(png);
 }
 
 Raster over_nothing(const VectorImage& image, double scale) {
