@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pdf_cells.h"
 #include "paint_groups.h"
+#include "pdf_cells.h"
 #include "quadrille/patch_mesh.h"
 
 namespace quadrille {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pdf_cells.h"
 #include "paint_groups.h"
+#include "pdf_cells.h"
 
 namespace quadrille {
 

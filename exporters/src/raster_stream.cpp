@@ -79,12 +79,15 @@ void keep_tiles(const CompanionFolder& tiles) {
   tiles.keep();
 }
 
+/// Of libvips' pictures.
+constexpr int kLargestSide = 10'000'000;
+
 constexpr RasterFormat kFormats[] = {
-    {{".png", ".png"}, "PNG", true, true, 10'000'000, save_png},
+    {{".png", ".png"}, "PNG", true, true, kLargestSide, save_png},
     {{".jpg", ".jpeg"}, "JPEG", false, false, 65'500, save_jpeg},
     {{".webp", ".webp"}, "WebP", true, false, 16'383, save_webp},
-    {{".tif", ".tiff"}, "TIFF", true, true, 10'000'000, save_tiff},
-    {{".dzi", ".dzi"}, "deep-zoom", true, false, 10'000'000, save_dzi},
+    {{".tif", ".tiff"}, "TIFF", true, true, kLargestSide, save_tiff},
+    {{".dzi", ".dzi"}, "deep-zoom", true, false, kLargestSide, save_dzi},
 };
 
 const RasterFormat* find_format(const std::string& ending) {
@@ -107,13 +110,12 @@ void check_options(const RasterFormat& format, const RasterStream& stream,
                                                  " is out of range; use 1 to 100");
   }
   if (std::max(stream.width, stream.height) > format.largest_side) {
-    throw Error(
-        ErrorCode::limit_exceeded,
-        "cannot write '" + path.string() + "': a picture of " + std::to_string(stream.width) +
-            " x " + std::to_string(stream.height) + " pixels does not fit into a " + format.name +
-            " file, whose sides end at " + std::to_string(format.largest_side) +
-            "; use a smaller scale" +
-            (format.largest_side < kFormats[0].largest_side ? " or write PNG or TIFF" : ""));
+    throw Error(ErrorCode::limit_exceeded,
+                "cannot write '" + path.string() + "': a picture of " +
+                    std::to_string(stream.width) + " x " + std::to_string(stream.height) +
+                    " pixels does not fit into a " + format.name + " file, whose sides end at " +
+                    std::to_string(format.largest_side) + "; use a smaller scale" +
+                    (format.largest_side < kLargestSide ? " or write PNG or TIFF" : ""));
   }
 }
 

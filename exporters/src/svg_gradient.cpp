@@ -192,13 +192,11 @@ class CellFitter {
     }
     if (best.cost > kHopeless * limit_) return {};
     for (int side = 0; side < 2; ++side) {
-      const auto [a, b] = best.direction;
-      const int kept = best.stops[1 - side];
-      const RidgeSystem other(colors_, axes_[side == 0 ? b : a], kept);
+      const int changed = best.direction[side], other = best.direction[1 - side];
+      const RidgeSystem kept(colors_, axes_[other], best.stops[1 - side]);
       for (const int stops : kCounts) {
         if (stops > kMostOfTwo || stops == kScoutStops) continue;
-        const RidgeSystem tried(colors_, axes_[side == 0 ? a : b], stops);
-        side == 0 ? try_pair(best, tried, a, other, b) : try_pair(best, other, a, tried, b);
+        try_pair(best, RidgeSystem(colors_, axes_[changed], stops), changed, kept, other);
       }
     }
     return layered(best);

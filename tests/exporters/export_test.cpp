@@ -29,7 +29,8 @@ VectorImage picture(bool opaque) {
 fs::path output(const std::string& name) { return test::scratch_dir() / ("export_" + name); }
 
 TEST(Export, KnowsTheEndingsThatAreAlwaysThere) {
-  for (const char* ending : {".quad", ".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".svg", ".svgz"}) {
+  for (const char* ending :
+       {".quad", ".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".svg", ".svgz"}) {
     EXPECT_THAT(export_endings(), Contains(ending));
   }
 }

@@ -73,12 +73,12 @@ TEST(PictureGroup, KnowsErrorsOnlyWithASource) {
   };
   EXPECT_THAT(names(picture_group(image)),
               ::testing::ElementsAre("patches", "surface", "control-net", "patch-edges", "tears",
-                                   "irregular-vertices"));
+                                     "irregular-vertices"));
   const Raster source = render(*image);
   const SceneGroup group = picture_group(image, &source);
   EXPECT_THAT(names(group),
               ::testing::ElementsAre("picture", "error", "patches", "surface", "control-net",
-                                   "patch-edges", "tears", "irregular-vertices"));
+                                     "patch-edges", "tears", "irregular-vertices"));
   EXPECT_EQ(std::get<ScenePatches>(group.layers[2].content).errors, std::vector<float>(4, 0.0f));
 }
 

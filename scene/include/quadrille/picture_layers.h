@@ -32,10 +32,10 @@ std::vector<float> patch_errors(const VectorImage& image, const SceneGrid& error
 
 /// "surface": every patch as divisions x divisions quads (1 to 64) with its colours. Neighbours
 /// share the points of their edge, so there are no cracks; where colours jump at a tear, each side
-/// has points of its own at the same places. Layer k of several lies at height k. Points: "color" (float RGB, or "color_premultiplied"
-/// RGBA when something is transparent; unclamped), "rgba" (bytes, straight, clamped). Cells:
-/// "patch", "layer", "region". Throws Error{invalid_argument} for divisions out of range and
-/// Error{limit_exceeded} for 2^31 points or corners.
+/// has points of its own at the same places. Layer k of several lies at height k. Points: "color"
+/// (float RGB, or "color_premultiplied" RGBA when something is transparent; unclamped), "rgba"
+/// (bytes, straight, clamped). Cells: "patch", "layer", "region". Throws Error{invalid_argument}
+/// for divisions out of range and Error{limit_exceeded} for 2^31 points or corners.
 SceneLayer surface_layer(const VectorImage& image, int divisions = 4,
                          const RunContext& context = {});
 
