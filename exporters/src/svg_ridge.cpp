@@ -1,5 +1,6 @@
 #include "svg_ridge.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -13,46 +14,30 @@ namespace {
 /// can move from one to the other.
 constexpr double kSmoothing = 1e-4, kPull = 1e-7;
 
-/// Normal equations of stop colours: the lower triangle and the right-hand side.
+/// Normal equations of stop colours, one row per stop: of the matrix the lower triangle.
 template <int Size>
 struct StopEquations {
-  int count = 0;
-  std::array<std::array<double, Size>, Size> matrix{};
-  std::array<std::array<double, 3>, Size> right{};
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Size, Size> matrix;
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, Size, 3> right;
 
-  /// Those of one axis, whose stops follow the ones that are there.
-  void add(const RidgeSystem& system) {
-    for (int k = 0; k < system.stops; ++k, ++count) {
-      matrix[count][count] = system.right_and_diagonal[k][3];
-      if (k > 0) matrix[count][count - 1] = system.below[k - 1];
-      for (int c = 0; c < 3; ++c) right[count][c] = system.right_and_diagonal[k][c];
+  explicit StopEquations(int count) : matrix(count, count), right(count, 3) { matrix.setZero(); }
+
+  /// Those of one axis, whose stops begin at number `first`.
+  void add(const RidgeSystem& system, int first) {
+    for (int k = 0; k < system.stops; ++k) {
+      matrix(first + k, first + k) = system.right_and_diagonal[k][3];
+      if (k > 0) matrix(first + k, first + k - 1) = system.below[k - 1];
+      right.row(first + k) = system.right_and_diagonal[k].head<3>();
     }
   }
 
-  /// By Cholesky's decomposition, in place. Eigen's for sizes known at run time takes several times
-  /// as long for so few unknowns.
   RidgeSolution<Size> solve() {
     RidgeSolution<Size> solution;
-    for (int i = 0; i < count; ++i) {
-      for (int j = 0; j <= i; ++j) {
-        double rest = matrix[i][j];
-        for (int k = 0; k < j; ++k) rest -= matrix[i][k] * matrix[j][k];
-        matrix[i][j] = i == j ? std::sqrt(rest) : rest / matrix[j][j];
-      }
-      for (int c = 0; c < 3; ++c) {
-        for (int k = 0; k < i; ++k) right[i][c] -= matrix[i][k] * right[k][c];
-        right[i][c] /= matrix[i][i];
-        // For the exact minimum x of x'Ax - 2 b'x the value there is -b'x.
-        solution.explained += right[i][c] * right[i][c];
-      }
-    }
-    solution.stops.resize(count, 3);
-    for (int i = count - 1; i >= 0; --i) {
-      for (int c = 0; c < 3; ++c) {
-        for (int k = i + 1; k < count; ++k) right[i][c] -= matrix[k][i] * right[k][c];
-        solution.stops(i, c) = right[i][c] /= matrix[i][i];
-      }
-    }
+    Eigen::LLT<Eigen::Ref<decltype(matrix)>> factors(matrix);
+    solution.stops = right;
+    factors.solveInPlace(solution.stops);
+    // For the exact minimum x of x'Ax - 2 b'x the value there is -b'x.
+    solution.explained = right.cwiseProduct(solution.stops).sum();
     return solution;
   }
 };
@@ -183,25 +168,25 @@ RidgeSystem::RidgeSystem(const WeightedColors& colors, const RidgeAxis& axis, in
 }
 
 RidgeSolution<RidgeSystem::kSize> solve_ridge(const RidgeSystem& system) {
-  StopEquations<RidgeSystem::kSize> equations;
-  equations.add(system);
+  StopEquations<RidgeSystem::kSize> equations(system.stops);
+  equations.add(system, 0);
   return equations.solve();
 }
 
 RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const WeightedColors& colors,
                                                    const RidgeSystem& a, const RidgeSystem& b) {
-  StopEquations<2 * RidgeSystem::kSize> equations;
-  equations.add(a);
-  equations.add(b);
+  StopEquations<2 * RidgeSystem::kSize> equations(a.stops + b.stops);
+  equations.add(a, 0);
+  equations.add(b, a.stops);
   for (int i = 0; i < colors.count; ++i) {
     const auto [j, f] = a.place[i];
     const auto [k, g] = b.place[i];
     const double w = colors.sample[i][3];
-    auto &first = equations.matrix[a.stops + k], &second = equations.matrix[a.stops + k + 1];
-    first[j] += w * (1 - f) * (1 - g);
-    first[j + 1] += w * f * (1 - g);
-    second[j] += w * (1 - f) * g;
-    second[j + 1] += w * f * g;
+    auto products = equations.matrix.block<2, 2>(a.stops + k, j);
+    products(0, 0) += w * (1 - f) * (1 - g);
+    products(0, 1) += w * f * (1 - g);
+    products(1, 0) += w * (1 - f) * g;
+    products(1, 1) += w * f * g;
   }
   return equations.solve();
 }
