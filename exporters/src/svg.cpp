@@ -30,13 +30,13 @@ LevelDetail detail_of(SvgLevel level) {
     case SvgLevel::compact:
       return {3.8, 2};
     case SvgLevel::faithful:
-      return {0.8, 8};
+      return {0.42, 8};
     case SvgLevel::balanced:
     case SvgLevel::hybrid:
     case SvgLevel::inkscape:
       break;
   }
-  return {1.45, 2};
+  return {1.5, 2};
 }
 
 class SvgFile {

@@ -31,8 +31,8 @@ struct RasterFileOptions {
 /// more.
 enum class SvgLevel {
   compact,   ///< t = 3.8
-  balanced,  ///< t = 1.45
-  faithful,  ///< t = 0.8, and coordinates to 1/8 of a pixel instead of 1/2 (ten times finer along
+  balanced,  ///< t = 1.5
+  faithful,  ///< t = 0.42, and coordinates to 1/8 of a pixel instead of 1/2 (ten times finer along
              ///< tears and the outline, and at every level where the picture is steep)
   hybrid,    ///< one pixel image per side of the tears behind exact outlines: not independent of
              ///< the resolution inside
@@ -56,7 +56,7 @@ struct PdfOptions {
   /// Colour error of a patch in 8-bit steps, at most half of it in the root mean square and at most
   /// twice of it anywhere, but for details below a pixel and up to 3/8 of a step by which colours
   /// are rounded up, as viewers cut off what is left of them; at least 0.5.
-  double tolerance = 2;
+  double tolerance = 1.6;
   std::string title = "Quadrille picture";
 };
 
