@@ -18,6 +18,10 @@ namespace {
 /// Patches that are fitted together; bounds the memory.
 constexpr int kChunk = 512;
 
+/// Patches whose alpha is nearer than this to 0 or 1 need no mask, which viewers draw with gaps
+/// between cells. The quantised document stores 1 as less now and then, by a step of 8 bits.
+double opacity_tolerance(double tolerance) { return std::max(1.0, 0.5 * tolerance) / 255; }
+
 class LayerPainter {
  public:
   LayerPainter(const Layer& layer, double tolerance, ScratchFile& scratch,
@@ -28,7 +32,7 @@ class LayerPainter {
         arena_(arena_size(context)),
         progress_(progress),
         paintable_(paintable_patches(layer)),
-        opacity_(paint_opacities(layer.patches, 0.5 * tolerance / 255, paintable_)) {}
+        opacity_(paint_opacities(layer.patches, opacity_tolerance(tolerance), paintable_)) {}
 
   PaintedLayer run(bool fills_page, Transparency transparency) {
     PaintedLayer painted;

@@ -56,7 +56,7 @@ struct PdfOptions {
   /// Colour error of a patch in 8-bit steps, at most half of it in the root mean square and at most
   /// twice of it anywhere, but for details below a pixel and up to 3/8 of a step by which colours
   /// are rounded up, as viewers cut off what is left of them; at least 0.5.
-  double tolerance = 1.6;
+  double tolerance = 1.5;
   std::string title = "Quadrille picture";
 };
 
