@@ -41,6 +41,28 @@ std::vector<int> sectors_around(const QuadMesh& mesh, int vertex) {
   return sectors;
 }
 
+/// Leaves patches of a lower group out of the inside of a region where they meet the group, which
+/// has the `touched` vertices, across tears at a corner alone: paint that goes on beyond the end of
+/// a side would show on them.
+void leave_out_across_tears(const QuadMesh& mesh, const PaintGroups& groups, int group,
+                            const std::vector<char>& touched, std::vector<char>& inside) {
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const auto fan = mesh.fan(v);
+    const auto is_torn = [&](int h) { return mesh.is_tear(mesh.edge(h)); };
+    if (!touched[v] || std::none_of(fan.begin(), fan.end(), is_torn)) continue;
+    const std::vector<int> sectors = sectors_around(mesh, v);
+    std::vector<char> has_group(sectors.size(), 0);
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      if (groups.group[QuadMesh::quad_of(fan[i])] == group) has_group[sectors[i]] = 1;
+    }
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      const int quad = QuadMesh::quad_of(fan[i]), its = groups.group[quad];
+      const bool is_lower = its < group && (its >= 0 || !groups.open_unpainted);
+      if (is_lower && !has_group[sectors[i]]) inside[quad] = 0;
+    }
+  }
+}
+
 /// Patches that follow each other around a vertex of a tear, without one between them, belong on
 /// the same side of it. At a tear's end inside the picture the two sides may differ.
 Sets sides_of_tears(const QuadMesh& mesh, const std::vector<char>& painted) {
@@ -141,34 +163,6 @@ std::vector<EdgeLoop> border_of(const QuadMesh& mesh, const std::vector<char>& i
   return loops;
 }
 
-namespace {
-
-/// The same where patches meet at a corner alone: what goes on beyond the end of a side at a tear
-/// would show on one of a lower group between other tears of that corner.
-void leave_out_across_tears(const QuadMesh& mesh, const PaintGroups& groups, int group,
-                            std::vector<char>& inside) {
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    const auto fan = mesh.fan(v);
-    if (std::none_of(fan.begin(), fan.end(), [&](int h) { return mesh.is_tear(mesh.edge(h)); })) {
-      continue;
-    }
-    const std::vector<int> sectors = sectors_around(mesh, v);
-    std::vector<char> has_group(sectors.size(), 0);
-    bool any = false;
-    for (std::size_t i = 0; i < fan.size(); ++i) {
-      if (groups.group[QuadMesh::quad_of(fan[i])] == group) any = has_group[sectors[i]] = 1;
-    }
-    for (std::size_t i = 0; any && i < fan.size(); ++i) {
-      const int quad = QuadMesh::quad_of(fan[i]);
-      const bool is_lower =
-          groups.group[quad] < group && (groups.group[quad] >= 0 || !groups.open_unpainted);
-      if (is_lower && !has_group[sectors[i]]) inside[quad] = 0;
-    }
-  }
-}
-
-}  // namespace
-
 std::vector<EdgeLoop> group_region(const QuadMesh& mesh, const PaintGroups& groups, int group) {
   std::vector<char> inside(mesh.quad_count(), 0), touched(mesh.vertex_count(), 0);
   bool cuts = false;
@@ -193,7 +187,7 @@ std::vector<EdgeLoop> group_region(const QuadMesh& mesh, const PaintGroups& grou
                       across(mesh, groups, h) == Across::outside && mesh.twin(h) >= 0;
     if (ends) inside[QuadMesh::quad_of(mesh.twin(h))] = 0;
   }
-  leave_out_across_tears(mesh, groups, group, inside);
+  leave_out_across_tears(mesh, groups, group, touched, inside);
   return border_of(mesh, inside);
 }
 

@@ -45,8 +45,10 @@ using EdgeLoop = std::vector<int>;
 std::vector<EdgeLoop> border_of(const QuadMesh& mesh, const std::vector<char>& inside);
 
 /// The border of the region of a group: of its patches and those around it over which it may reach,
-/// so that only its edges toward the `outside` cut anything off; it never goes around patches that
-/// cannot be painted. Empty when there are no such edges.
+/// so that its edges toward the `outside` cut it off; it never goes around patches that cannot be
+/// painted. Patches of a lower group that the group meets across tears are left out, at a corner
+/// alone too, even where that ends the region at a smooth edge, under which the lower ones go on.
+/// Empty when there are no edges toward the outside.
 std::vector<EdgeLoop> group_region(const QuadMesh& mesh, const PaintGroups& groups, int group);
 
 }  // namespace quadrille

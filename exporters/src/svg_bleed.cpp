@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "svg_bleed_reach.h"
@@ -13,6 +14,7 @@ namespace quadrille {
 namespace {
 
 using Eigen::Vector2d;
+
 /// How far cells go on beyond a clip, in bleeds: all over the pixels that the clip halves.
 constexpr double kClippedBleed = 1.5;
 /// The least sine of the angle between a side and the next along which a corner moves, the cosines
@@ -146,9 +148,8 @@ class Outliner {
       return add_bleed(to, corner, begin.step);
     }
     if (ends) {
-      const Vector2d step = along(-direction_at_start(after), end);
-      add_end(to, corner, may_go_on(before, after, step) ? step : end.step,
-              -direction_at_end(before));
+      const Vector2d step = last_step(end, -direction_at_start(after), before, after, after);
+      add_end(to, corner, step, -direction_at_end(before));
     }
     // The start of an exact side is added with it.
     if (beyond(after) != CellMesh::Beyond::nothing) {
@@ -157,9 +158,8 @@ class Outliner {
       to.add(corner, std::min(tolerance_for(slope), corner_tolerance(before, after)));
     }
     if (starts) {
-      const Vector2d step = along(direction_at_end(before), begin);
-      add_end(to, corner, may_go_on(after, after, step) ? step : begin.step,
-              direction_at_start(after));
+      const Vector2d step = last_step(begin, direction_at_end(before), after, before, after);
+      add_end(to, corner, step, direction_at_start(after));
     }
   }
 
@@ -218,6 +218,16 @@ class Outliner {
     return slope > kLeastSlope ? Vector2d(direction * (bleed.depth / slope)) : bleed.step;
   }
 
+  /// The step with which a bleed ends at the start of side `corner`, beside a side without one: on
+  /// the line of that side, on which the bleed of the cell beyond ends too, where the bleed may go
+  /// there. Beside a tear its own step follows the tear.
+  Vector2d last_step(const Bleed& bleed, const Vector2d& line, int bleeding, int beside,
+                     int corner) const {
+    if (mesh_.side(beside).is_torn) return bleed.step;
+    const Vector2d step = along(line, bleed);
+    return may_go_on(bleeding, corner, step) ? step : bleed.step;
+  }
+
   /// Where two bleeds meet; nothing where they do not, or above what is painted earlier.
   std::optional<Vector2d> meeting(const Bleed& end, const Bleed& begin, int before,
                                   int after) const {
@@ -229,11 +239,29 @@ class Outliner {
     if (turn > 0 && !all_later_around(before, after)) return {};
     const double divisor = 1 - cosine * cosine;
     const Vector2d step = (a - cosine * b) / divisor * n + (b - cosine * a) / divisor * m;
-    for (const int s : {before, after}) {
-      const bool is_clip = beyond(s) == CellMesh::Beyond::clip;
-      if (!is_clip && reach_.crosses_tear(s, start(after), step)) return {};
-    }
+    if (crosses_tear(before, after, step)) return {};
     return step;
+  }
+
+  /// True when a step from the corner between two sides crosses a tear of the patches there. Where
+  /// patches are thin it may, though each side's own bleed does not.
+  bool crosses_tear(int before, int after, const Vector2d& step) const {
+    using enum CellMesh::Beyond;
+    if (beyond(before) == clip || beyond(after) == clip) return false;
+    const auto fan = fan_at_start(after);
+    if (!fan.empty()) {
+      return std::any_of(fan.begin(), fan.end(), [&](int h) {
+        return reach_.crosses_tear(QuadMesh::quad_of(h), start(after), step);
+      });
+    }
+    for (const int s : {before, after}) {
+      const int own = mesh_.quad(mesh_.side(s).cell);
+      const int twin = mesh_.side(s).on_border ? layer_.mesh().twin(4 * own + mesh_.side(s).k) : -1;
+      if (reach_.crosses_tear(own, start(after), step)) return true;
+      if (twin >= 0 && reach_.crosses_tear(QuadMesh::quad_of(twin), start(after), step))
+        return true;
+    }
+    return false;
   }
 
   /// The fan around the vertex at which a side starts; empty when it starts elsewhere.
@@ -253,29 +281,32 @@ class Outliner {
                        [&](int h) { return layer_.mesh().is_tear(layer_.mesh().edge(h)); });
   }
 
-  /// True when a bleed may lead along this step from the start of side `after`: at a vertex of a
-  /// tear not onto what is painted earlier, unless a clip cuts it off there.
-  bool may_go_on(int bleeding, int after, const Vector2d& step) const {
-    if (!starts_at_tear(after)) return true;
-    const auto fan = fan_at_start(after);
+  /// True when a bleed may lead along this step from the start of side `corner`: at a vertex of a
+  /// tear not onto what is painted earlier, unless a clip cuts it off there, which it does in other
+  /// parts.
+  bool may_go_on(int bleeding, int corner, const Vector2d& step) const {
+    if (!starts_at_tear(corner)) return true;
+    const auto fan = fan_at_start(corner);
     const int own = mesh_.quad(mesh_.side(bleeding).cell);
     const bool is_clip = beyond(bleeding) == CellMesh::Beyond::clip;
     return std::none_of(fan.begin(), fan.end(), [&](int h) {
-      const int quad = QuadMesh::quad_of(h);
-      return leads_into(step, h) && !is_hidden_in(own, h) &&
-             !(is_clip && layer_.part(quad) != layer_.part(own));
+      const bool is_cut_off = is_clip && layer_.part(QuadMesh::quad_of(h)) != layer_.part(own);
+      return !is_cut_off && !is_hidden_in(own, h) && leads_into(step, h);
     });
   }
 
   /// True when a step from the origin of half-edge h leads into its quad.
   bool leads_into(const Vector2d& step, int h) const {
-    const PlaneCurve out = edge_curve(layer_.layer(), h);
-    const PlaneCurve in = edge_curve(layer_.layer(), QuadMesh::prev(h));
-    const auto turn_to = [&, from = direction(out[0], out[1], out[3])](const Vector2d& to) {
-      const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+    const PlaneCurve next = edge_curve(layer_.layer(), h);
+    const PlaneCurve previous = edge_curve(layer_.layer(), QuadMesh::prev(h));
+    Vector2d from = direction(next[0], next[1], next[3]);
+    Vector2d to = direction(previous[3], previous[2], previous[0]);
+    if (layer_.layer().transform.linear().determinant() < 0) std::swap(from, to);
+    const auto turn_to = [from](const Vector2d& other) {
+      const double angle = std::atan2(from.x() * other.y() - from.y() * other.x(), from.dot(other));
       return angle < 0 ? angle + 2 * std::numbers::pi : angle;
     };
-    return turn_to(step) < turn_to(direction(in[3], in[2], in[0]));
+    return turn_to(step) < turn_to(to);
   }
 
   /// True when all other cells around the start of side `after` are painted later.

@@ -100,22 +100,17 @@ bool BleedReach::is_covered(int own, int quad, const Vector2d& uv) const {
                   : group_.holds(cell) || group_.is_later(cell);
 }
 
-bool BleedReach::crosses_tear(int s, const Vector2d& from, const Vector2d& step) const {
-  const CellMesh::Side& side = mesh_.side(s);
-  const int q = mesh_.quad(side.cell), twin = layer_.mesh().twin(4 * q + side.k);
-  if (crosses_tear_of(q, from, from + step)) return true;
-  return side.on_border && twin >= 0 && crosses_tear_of(QuadMesh::quad_of(twin), from, from + step);
-}
-
-bool BleedReach::crosses_tear_of(int quad, const Vector2d& from, const Vector2d& to) const {
+bool BleedReach::crosses_tear(int quad, const Vector2d& from, const Vector2d& step) const {
   constexpr int kLines = 4;  // of a side
   const QuadMesh& quads = layer_.mesh();
   for (int k = 0; k < 4; ++k) {
     if (!quads.is_tear(quads.edge(4 * quad + k))) continue;
-    for (int i = 0; i < kLines; ++i) {
-      const Vector2d a = point_at(geometry(quad), on_side(k, double(i) / kLines));
-      const Vector2d b = point_at(geometry(quad), on_side(k, double(i + 1) / kLines));
-      if (cross_each_other(from, to, a, b)) return true;
+    const Geometry& g = geometry(quad);
+    Vector2d end = point_at(g, on_side(k, 0));
+    for (int i = 1; i <= kLines; ++i) {
+      const Vector2d begin = end;
+      end = point_at(g, on_side(k, double(i) / kLines));
+      if (cross_each_other(from, from + step, begin, end)) return true;
     }
   }
   return false;

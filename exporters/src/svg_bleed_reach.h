@@ -21,9 +21,8 @@ class BleedReach {
   /// bleed is halved until it ends in a cell that is painted later.
   Eigen::Vector2d step(int side, const Eigen::Vector2d& uv, double bleed, bool is_clipped) const;
 
-  /// True when a step from a point of a side crosses a tear around the patch of the side or the one
-  /// beyond.
-  bool crosses_tear(int side, const Eigen::Vector2d& from, const Eigen::Vector2d& step) const;
+  /// True when a step from a point on the border of a patch or in it crosses a tear around it.
+  bool crosses_tear(int quad, const Eigen::Vector2d& from, const Eigen::Vector2d& step) const;
 
  private:
   using Geometry = BicubicHermite<Eigen::Vector2d>;
@@ -32,7 +31,6 @@ class BleedReach {
                                                 const Eigen::Vector2d& uv, int twin,
                                                 double bleed) const;
   bool is_covered(int own, int quad, const Eigen::Vector2d& uv) const;
-  bool crosses_tear_of(int quad, const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
   const Geometry& geometry(int quad) const;
 
   const CellMesh& mesh_;

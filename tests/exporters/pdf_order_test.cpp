@@ -64,19 +64,24 @@ TEST(PaintGroups, ARegionLeavesOutPatchesThatTouchTheGroupAcrossTearsAtACornerAl
   groups.group = {1, 0, 0, 0, 0, 1};
   groups.count = 2;
   groups.open_border = true;
-  int seam = -1;
+  int left_out = -1, kept = -1;
   for (int h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.twin(h) < 0) continue;
     const int quad = QuadMesh::quad_of(h), other = QuadMesh::quad_of(mesh.twin(h));
     if (quad % 3 == 0 && other % 3 == 1) mesh.edge_flags[mesh.edge(h)] |= kTearEdge;
-    if (quad == 5 && other == 4) seam = h;
+    if (quad == 5 && other == 4) left_out = h;
+    if (quad == 0 && other == 3) kept = h;
   }
-  ASSERT_GE(seam, 0);
+  ASSERT_GE(left_out, 0);
+  ASSERT_GE(kept, 0);
   const auto region = group_region(mesh, groups, 1);
-  const auto has_seam = [&](const EdgeLoop& loop) {
-    return std::find(loop.begin(), loop.end(), seam) != loop.end();
+  const auto bounded_by = [&](int h) {
+    return std::any_of(region.begin(), region.end(), [&](const EdgeLoop& loop) {
+      return std::find(loop.begin(), loop.end(), h) != loop.end();
+    });
   };
-  EXPECT_TRUE(std::any_of(region.begin(), region.end(), has_seam));
+  EXPECT_TRUE(bounded_by(left_out));
+  EXPECT_FALSE(bounded_by(kept));
 }
 
 TEST(PaintGroups, RegionsNeverGoAroundPatchesThatCannotBePainted) {
