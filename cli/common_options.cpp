@@ -48,7 +48,7 @@ void declare_run_options(CLI::App& parser, RunOptions& options) {
   parser
       .add_option("--threads", options.threads,
                   "worker threads, 0 for all of the machine's; the result never depends on it")
-      ->check(CLI::Range(0, 1024))
+      ->check(whole_number_from(0, 1024))
       ->capture_default_str();
   CLI::Option* verbose =
       parser.add_flag("-v,--verbose", options.verbose, "a line per stage on stderr");
@@ -63,7 +63,7 @@ void declare_quad_options(CLI::App& parser, MeshOptions& options) {
   parser
       .add_option("--quads", options.quads,
                   "wished number of quads, met within 5 % from 200 up; the preset's by default")
-      ->check(CLI::Range(1, kMaxQuads));
+      ->check(whole_number_from(1, kMaxQuads));
   parser.add_flag("--lattice", options.lattice,
                   "a plain axis-aligned lattice instead of the field-aligned mesh");
   parser
@@ -111,7 +111,7 @@ void declare_mesh_options(CLI::App& parser, MeshOptions& options) {
       .add_option("--optimize", options.optimize,
                   "rounds that move the vertices to where they reproduce the picture better, 0 for "
                   "none; without effect on --fit bessel")
-      ->check(CLI::Range(0, 1000))
+      ->check(whole_number_from(0, 1000))
       ->capture_default_str();
   parser.add_flag("--editable", options.editable,
                   "keep the moved quads well-shaped, at the price of a little error");
@@ -156,6 +156,18 @@ CLI::Validator number_from(double low, double high) {
                    : fmt::format("'{}' is not a number from {} to {}", text, low, high);
       },
       fmt::format("NUMBER in [{} - {}]", low, high), "number in range");
+}
+
+CLI::Validator whole_number_from(int low, int high) {
+  return CLI::Validator(
+      [low, high](const std::string& text) -> std::string {
+        const char* const last = text.data() + text.size();
+        int value = 0;
+        const auto [end, error] = std::from_chars(text.data(), last, value);
+        const bool good = error == std::errc() && end == last && value >= low && value <= high;
+        return good ? "" : fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
+      },
+      fmt::format("INT in [{} - {}]", low, high), "whole number in range");
 }
 
 }  // namespace quadrille::cli

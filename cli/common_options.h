@@ -56,4 +56,7 @@ CLI::Validator positive_number();
 /// Accepts numbers from low to high; other than CLI::Range, no NaN.
 CLI::Validator number_from(double low, double high);
 
+/// Accepts whole numbers from low to high in decimal digits.
+CLI::Validator whole_number_from(int low, int high);
+
 }  // namespace quadrille::cli

@@ -58,7 +58,7 @@ void declare_export_options(CLI::App& parser, ExportOptions& options) {
   parser
       .add_option("--vtk-divisions", options.vtk.divisions,
                   "quads per side of a patch in .vtp files")
-      ->check(CLI::Range(1, 64))
+      ->check(whole_number_from(1, 64))
       ->capture_default_str();
   parser.parse_complete_callback([&options] {
     const SvgLevel level = options.svg.level;

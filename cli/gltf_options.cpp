@@ -49,7 +49,7 @@ void declare_gltf_options(CLI::App& parser, GltfOptions& options) {
                                     "textures of .glb and .gltf: png, webp, which some readers do "
                                     "not know, or jpeg, which leaves those with transparency png");
   parser.add_option("--texture-quality", options.texture_quality, "of webp and jpeg textures")
-      ->check(CLI::Range(1, 100))
+      ->check(whole_number_from(1, 100))
       ->capture_default_str();
   parser.add_flag("--gltf-lit", options.lit,
                   "a rough white-paper material that lights shade, instead of an unlit one");

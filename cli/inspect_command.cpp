@@ -61,9 +61,10 @@ int run_inspect(const InspectRequest& request) {
   const auto chosen = std::ranges::find(scene_stages(), request.stage, &SceneStage::name);
   if (!can_show(*chosen, stages)) {
     throw Error(ErrorCode::degenerate_input,
-                fmt::format("there is no {} to draw: a plain lattice was used; ask for fewer quads "
-                            "or draw the stage quads",
-                            request.stage));
+                fmt::format("'{}' has no {} to draw: its mesh is a plain lattice; {} or draw the "
+                            "stage quads",
+                            request.input.string(), request.stage,
+                            request.mesh.lattice ? "leave out --lattice" : "use a larger picture"));
   }
 
   const Raster drawing = observer.stage("draw", [&] {

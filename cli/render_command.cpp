@@ -99,7 +99,7 @@ Action declare_render(CLI::App& parser) {
           ->check(positive_number())
           ->capture_default_str();
   parser.add_option("--width", request->width, "width of the whole output in pixels")
-      ->check(CLI::Range(1, 1 << 30))
+      ->check(whole_number_from(1, 1 << 30))
       ->excludes(scale);
   parser
       .add_option("--region", request->region,

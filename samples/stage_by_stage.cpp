@@ -1,5 +1,5 @@
-// The steps of vectorize() one by one: a mesh, its colours by each way of estimating them, the mesh
-// once more where they err, tears and moved vertices, and how far each is from the picture.
+// The main steps of vectorize() one by one: a mesh, its colours by each way of estimating them, the
+// mesh once more where they err, tears and moved vertices, and how far each is from the picture.
 //   stage_by_stage picture.jpg
 #include <cstdio>
 #include <utility>

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
     bound.max_quads = 20'000;
     const quadrille::BoundedVectorization bounded = quadrille::vectorize_to_error(picture, bound);
     for (const quadrille::ErrorBoundRound& round : bounded.rounds) {
-      std::printf("%6d quads: MAE %.2f\n", round.quads, round.mae);
+      std::printf("%6d quads: MAE %.4g\n", round.quads, round.mae);
     }
     if (!bounded.met) std::printf("the bound is out of reach with %d quads\n", bound.max_quads);
     quadrille::save_document(bounded.result.image, argv[3]);

@@ -115,9 +115,9 @@ Layer restore_layer(const VtkArrayFile& file, std::size_t index, const Corners& 
     patches.wedge_of_corner.insert(patches.wedge_of_corner.end(), corners.wedges[c].begin(),
                                    corners.wedges[c].end());
   }
+  auto vertices = file.elements<double, Eigen::Vector2d>(Part::field, name("vertices"));
   try {
-    patches.mesh = QuadMesh(file.elements<double, Eigen::Vector2d>(Part::field, name("vertices")),
-                            std::move(quads));
+    patches.mesh = QuadMesh(std::move(vertices), std::move(quads));
   } catch (const Error& error) {
     file.refuse(error.what());
   }

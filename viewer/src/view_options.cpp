@@ -60,9 +60,10 @@ void add_parsed(CLI::App& parser, ViewOptions& options, const std::string& name,
   parser
       .add_option_function<std::string>(
           name,
-          [&options, set, name, syntax](const std::string& text) {
+          [&options, set, name, syntax, help](const std::string& text) {
             if (!set(text, options)) {
-              throw CLI::ValidationError(name, fmt::format("'{}' is not {}", text, syntax));
+              throw CLI::ValidationError(name,
+                                         fmt::format("'{}' is not {}: {}", text, syntax, help));
             }
           },
           help)
