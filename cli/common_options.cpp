@@ -4,7 +4,7 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "quadrille/preset.h"
 
@@ -29,12 +29,25 @@ std::vector<std::string> preset_names() {
   return names;
 }
 
-/// NaN for what is not a number.
-double number_of(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool good = error == std::errc() && end == text.data() + text.size();
-  return good ? value : std::numeric_limits<double>::quiet_NaN();
+/// Nothing for what is not such a number as a whole.
+template <class Number>
+std::optional<Number> number_of(const std::string& text) {
+  const char* const last = text.data() + text.size();
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  return error == std::errc() && end == last ? std::optional(value) : std::nullopt;
+}
+
+template <class Number>
+CLI::Validator within(Number low, Number high, const char* type, const char* name) {
+  return CLI::Validator(
+      [low, high, name](const std::string& text) -> std::string {
+        const std::optional<Number> value = number_of<Number>(text);
+        return value && *value >= low && *value <= high
+                   ? ""
+                   : fmt::format("'{}' is not a {} from {} to {}", text, name, low, high);
+      },
+      fmt::format("{} in [{} - {}]", type, low, high), std::string(name) + " in range");
 }
 
 }  // namespace
@@ -139,8 +152,8 @@ void declare_output(CLI::App& parser, std::filesystem::path& output, const std::
 CLI::Validator positive_number() {
   return CLI::Validator(
       [](const std::string& text) -> std::string {
-        const double value = number_of(text);
-        return std::isfinite(value) && value > 0
+        const std::optional<double> value = number_of<double>(text);
+        return value && std::isfinite(*value) && *value > 0
                    ? ""
                    : fmt::format("'{}' is not a number above 0", text);
       },
@@ -148,26 +161,11 @@ CLI::Validator positive_number() {
 }
 
 CLI::Validator number_from(double low, double high) {
-  return CLI::Validator(
-      [low, high](const std::string& text) -> std::string {
-        const double value = number_of(text);
-        return value >= low && value <= high
-                   ? ""
-                   : fmt::format("'{}' is not a number from {} to {}", text, low, high);
-      },
-      fmt::format("NUMBER in [{} - {}]", low, high), "number in range");
+  return within(low, high, "NUMBER", "number");
 }
 
 CLI::Validator whole_number_from(int low, int high) {
-  return CLI::Validator(
-      [low, high](const std::string& text) -> std::string {
-        const char* const last = text.data() + text.size();
-        int value = 0;
-        const auto [end, error] = std::from_chars(text.data(), last, value);
-        const bool good = error == std::errc() && end == last && value >= low && value <= high;
-        return good ? "" : fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
-      },
-      fmt::format("INT in [{} - {}]", low, high), "whole number in range");
+  return within(low, high, "INT", "whole number");
 }
 
 }  // namespace quadrille::cli

@@ -37,7 +37,8 @@ std::vector<int> sectors_around(const QuadMesh& mesh, int vertex) {
   std::vector<int> sectors(1, 0);
   for (const int h : fan.subspan(1)) sectors.push_back(sectors.back() + begins(h));
   const bool goes_around = !mesh.is_border_vertex(vertex) && !begins(fan.front());
-  if (goes_around) std::replace(sectors.begin(), sectors.end(), int(sectors.back()), 0);
+  const int last = sectors.back();
+  if (goes_around) std::replace(sectors.begin(), sectors.end(), last, 0);
   return sectors;
 }
 

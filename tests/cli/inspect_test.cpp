@@ -1,4 +1,5 @@
 // What `quadrille inspect` draws.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,6 +48,8 @@ TEST(InspectLattice, HasNoFieldsToDraw) {
                  "--lattice", "-o", (folder / "a.png").string()});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_TRUE(is_one_complaint(result.err)) << result.err;
+  EXPECT_THAT(result.err, testing::HasSubstr("coast_progressive.jpg"));
+  EXPECT_THAT(result.err, testing::HasSubstr("leave out --lattice"));
 }
 
 }  // namespace

@@ -48,6 +48,15 @@ TEST(Usage, OptionsOfTheMeshAreForPictures) {
   }
 }
 
+TEST(Usage, WholeNumbersAreCalledSo) {
+  for (const char* quads : {"abc", "1e3", "2.5", "-1", "2000001", "99999999999"}) {
+    const CommandResult result = quadrille({"a.png", "-o", "b.svg", "--quads", quads});
+    EXPECT_EQ(result.exit_code, 2) << quads;
+    EXPECT_THAT(result.err, testing::HasSubstr("'" + std::string(quads) +
+                                               "' is not a whole number from 1 to 2000000"));
+  }
+}
+
 TEST(Usage, InspectTellsOfItsSceneFile) {
   EXPECT_THAT(quadrille({"help", "inspect"}).out, HasSubstr(".vtm file of all stages"));
 }
