@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "node_weights.h"
+#include "chebyshev_basis.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "block_colors.cpp"
@@ -57,14 +57,14 @@ void judge(const PatchProgram& p, const float (&map)[6], bool opaque, int side,
 }
 
 template <int kSide>
-bool find_nodes_of(const PatchProgram& p, const float (&map)[6], bool opaque,
-                   const ColorBlock& block, float* nodes) {
+bool find_series_of(const PatchProgram& p, const float (&map)[6], bool opaque,
+                    const ColorBlock& block, float* series) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   alignas(64) float xs[16], ys[16];
   for (int i = 0; i < 16; ++i) {
-    xs[i] = block.x + kNodes<kSide>.node[i % 4];
-    ys[i] = block.y + kNodes<kSide>.node[i / 4];
+    xs[i] = block.x + kBasis<kSide>.node[i % 4];
+    ys[i] = block.y + kBasis<kSide>.node[i / 4];
   }
   for (int i = 0; i < 16; i += lanes) {
     const Normalized point = normalized(map, hn::Load(d, xs + i), hn::Load(d, ys + i));
@@ -73,39 +73,40 @@ bool find_nodes_of(const PatchProgram& p, const float (&map)[6], bool opaque,
     invert<1>(p, {point.x}, {point.y}, kReach, 8 * kSteeper, at);
     if (!hn::AllTrue(d, at[0].found)) return false;
     for (int k = 0; k < (opaque ? 3 : 4); ++k) {
-      hn::StoreU(bicubic(p.color[k], at[0].s, at[0].t), d, nodes + BlockPlan::kNodes * k + i);
+      hn::StoreU(bicubic(p.color[k], at[0].s, at[0].t), d, series + BlockPlan::kTerms * k + i);
     }
   }
+  for (int k = 0; k < (opaque ? 3 : 4); ++k) make_series(series + BlockPlan::kTerms * k);
   return true;
 }
 
-bool find_nodes(const PatchProgram& p, const float (&map)[6], bool opaque, int side,
-                const ColorBlock& block, float* nodes) {
+bool find_series(const PatchProgram& p, const float (&map)[6], bool opaque, int side,
+                 const ColorBlock& block, float* series) {
   switch (side) {
     case 8:
-      return find_nodes_of<8>(p, map, opaque, block, nodes);
+      return find_series_of<8>(p, map, opaque, block, series);
     case 16:
-      return find_nodes_of<16>(p, map, opaque, block, nodes);
+      return find_series_of<16>(p, map, opaque, block, series);
     default:
-      return find_nodes_of<32>(p, map, opaque, block, nodes);
+      return find_series_of<32>(p, map, opaque, block, series);
   }
 }
 
-/// The polynomial through the nodes at the samples from `first` on.
-HWY_INLINE V interpolated(const float* nodes, int first) {
+/// The polynomial at the samples from `first` on.
+HWY_INLINE V interpolated(const float* series, int first) {
   const Floats d;
   V across[4], sum = hn::Zero(d);
   for (int i = 0; i < 4; ++i) across[i] = hn::Load(d, kSamples.across[i] + first);
   for (int j = 0; j < 4; ++j) {
     V row = hn::Zero(d);
-    for (int i = 0; i < 4; ++i) row = row + number(nodes[4 * j + i]) * across[i];
+    for (int i = 0; i < 4; ++i) row = row + number(series[4 * j + i]) * across[i];
     sum = sum + row * hn::Load(d, kSamples.down[j] + first);
   }
   return sum;
 }
 
 bool matches(const PatchProgram& p, const float (&map)[6], bool opaque, const ColorBlock& block,
-             const float* nodes, std::uint64_t samples) {
+             const float* series, std::uint64_t samples) {
   constexpr float kAllowed = 1.0f / 170 / 255;
   constexpr int kTogether = 2;
   const Floats d;
@@ -126,7 +127,7 @@ bool matches(const PatchProgram& p, const float (&map)[6], bool opaque, const Co
       const int n = first + k * lanes;
       Mask good = at[k].found;
       for (int c = 0; c < (opaque ? 3 : 4); ++c) {
-        const V here = interpolated(nodes + BlockPlan::kNodes * c, n);
+        const V here = interpolated(series + BlockPlan::kTerms * c, n);
         const V there = bicubic(p.color[c], at[k].s, at[k].t);
         const V off = hn::Min(hn::Max(here, zero), one) - hn::Min(hn::Max(there, zero), one);
         good = hn::And(good, hn::Abs(off) <= number(kAllowed));
@@ -151,7 +152,7 @@ HWY_AFTER_NAMESPACE();
 namespace quadrille {
 namespace {
 HWY_EXPORT(judge);
-HWY_EXPORT(find_nodes);
+HWY_EXPORT(find_series);
 HWY_EXPORT(matches);
 }  // namespace
 
@@ -160,14 +161,14 @@ void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaqu
   HWY_DYNAMIC_DISPATCH(judge)(program, map, opaque, side, blocks, fit);
 }
 
-bool find_block_nodes(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
-                      const ColorBlock& block, float* nodes) {
-  return HWY_DYNAMIC_DISPATCH(find_nodes)(program, map, opaque, side, block, nodes);
+bool find_block_series(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
+                       const ColorBlock& block, float* series) {
+  return HWY_DYNAMIC_DISPATCH(find_series)(program, map, opaque, side, block, series);
 }
 
 bool block_matches(const PatchProgram& program, const float (&map)[6], bool opaque,
-                   const ColorBlock& block, const float* nodes, std::uint64_t samples) {
-  return HWY_DYNAMIC_DISPATCH(matches)(program, map, opaque, block, nodes, samples);
+                   const ColorBlock& block, const float* series, std::uint64_t samples) {
+  return HWY_DYNAMIC_DISPATCH(matches)(program, map, opaque, block, series, samples);
 }
 
 }  // namespace quadrille

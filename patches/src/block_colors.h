@@ -19,15 +19,15 @@ struct ColorBlock {
 void judge_blocks(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
                   std::span<const ColorBlock> blocks, std::uint8_t* fit);
 
-/// A patch's colours at the 4 x 4 nodes of a block before clamping: BlockPlan::kNodes for each
-/// channel. False where a node's parameters are not found.
-bool find_block_nodes(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
-                      const ColorBlock& block, float* nodes);
+/// The polynomials through a patch's colours at a block's 4 x 4 nodes, before clamping, as
+/// BlockPlan::series has them. False where a node's parameters are not found.
+bool find_block_series(const PatchProgram& program, const float (&map)[6], bool opaque, int side,
+                       const ColorBlock& block, float* series);
 
-/// Whether the polynomials through a block's nodes, of side 8, differ by at most 1/170 of an 8-bit
-/// step from the colours by Newton's method at the `samples`, a bit for each, row by row: by less
-/// than 1/100 from the truth then. All instruction sets agree.
+/// Whether the polynomials of a block of side 8 differ by at most 1/170 of an 8-bit step from the
+/// colours by Newton's method at the `samples`, a bit for each, row by row: by less than 1/100 from
+/// the truth then. All instruction sets agree.
 bool block_matches(const PatchProgram& program, const float (&map)[6], bool opaque,
-                   const ColorBlock& block, const float* nodes, std::uint64_t samples);
+                   const ColorBlock& block, const float* series, std::uint64_t samples);
 
 }  // namespace quadrille

@@ -1,9 +1,10 @@
 #include "block_paint.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
-#include "node_weights.h"
+#include "chebyshev_basis.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "block_paint.cpp"
@@ -17,26 +18,34 @@
 
 namespace quadrille {
 
-/// The weights of two rows of a block side by side: [y / 2][node][8 (y % 2) + x].
-struct RowPairWeights {
-  alignas(64) float weight[4][4][16];
+/// The basis at two rows of a block side by side: [y / 2][polynomial][8 (y % 2) + x].
+struct RowPairBasis {
+  alignas(64) float t[2][4][16];
 
-  constexpr RowPairWeights() : weight() {
-    for (int y = 0; y < 8; ++y) {
+  constexpr RowPairBasis() : t() {
+    for (int y = 0; y < 4; ++y) {
       for (int i = 0; i < 4; ++i) {
-        for (int x = 0; x < 8; ++x) weight[y / 2][i][8 * (y % 2) + x] = kNodes<8>.weight[i][y];
+        for (int x = 0; x < 8; ++x) t[y / 2][i][8 * (y % 2) + x] = kBasis<8>.t[i][y];
       }
     }
   }
 };
-inline constexpr RowPairWeights kRowPairs;
+inline constexpr RowPairBasis kRowPairs;
+
+/// The rows of a block all of whose samples are painted.
+inline constexpr auto kFullRows = [] {
+  std::array<std::uint32_t, kBlockSides[0]> rows{};
+  rows.fill(~std::uint32_t{0});
+  return rows;
+}();
 
 /// The samples of a block of which the part in the window is painted: a bit for each column of each
 /// row. `first` is the block's first sample relative to the window's.
 struct PaintedBlock {
   bool full;
   std::ptrdiff_t first;
-  std::uint32_t rows[kBlockSides[0]];
+  const std::uint32_t* rows;
+  std::uint32_t clipped[kBlockSides[0]];
 };
 
 }  // namespace quadrille
@@ -74,23 +83,15 @@ struct FloatTarget {
     each_channel([&](int k) { hn::BlendedStore(c[k], mask, d, planes.channel[k] + at); });
   }
 #if HWY_CAP_GE512
-  /// The two halves of vectors go to consecutive rows.
+  /// The halves of vectors go to two rows, `step` apart.
   template <class D, class V>
-  HWY_INLINE void store_pair(D, const V (&c)[4], std::ptrdiff_t at) const {
+  HWY_INLINE void store_pair(D, const V (&c)[4], std::ptrdiff_t at, std::ptrdiff_t step,
+                             std::uint32_t first_bits, std::uint32_t second_bits) const {
     const hn::Half<D> half;
+    const auto first = mask_of(half, first_bits), second = mask_of(half, second_bits);
     each_channel([&](int k) {
-      hn::StoreU(hn::LowerHalf(half, c[k]), half, planes.channel[k] + at);
-      hn::StoreU(hn::UpperHalf(half, c[k]), half, planes.channel[k] + at + stride());
-    });
-  }
-  template <class D, class V>
-  HWY_INLINE void store_some_pair(D, const V (&c)[4], std::ptrdiff_t at,
-                                  const std::uint32_t* bits) const {
-    const hn::Half<D> half;
-    const auto upper = mask_of(half, bits[0]), lower = mask_of(half, bits[1]);
-    each_channel([&](int k) {
-      hn::BlendedStore(hn::LowerHalf(half, c[k]), upper, half, planes.channel[k] + at);
-      hn::BlendedStore(hn::UpperHalf(half, c[k]), lower, half, planes.channel[k] + at + stride());
+      hn::BlendedStore(hn::LowerHalf(half, c[k]), first, half, planes.channel[k] + at);
+      hn::BlendedStore(hn::UpperHalf(half, c[k]), second, half, planes.channel[k] + at + step);
     });
   }
 #endif
@@ -119,102 +120,111 @@ struct WordTarget {
   }
 #if HWY_CAP_GE512
   template <class D, class V>
-  HWY_INLINE void store_pair(D d, const V (&c)[4], std::ptrdiff_t at) const {
+  HWY_INLINE void store_pair(D d, const V (&c)[4], std::ptrdiff_t at, std::ptrdiff_t step,
+                             std::uint32_t first_bits, std::uint32_t second_bits) const {
     const hn::Half<hn::RebindToUnsigned<D>> half;
     const auto words = opaque_words(d, c[0], c[1], c[2]);
-    hn::StoreU(hn::LowerHalf(half, words), half, pixels.first + at);
-    hn::StoreU(hn::UpperHalf(half, words), half, pixels.first + at + stride());
-  }
-  template <class D, class V>
-  HWY_INLINE void store_some_pair(D d, const V (&c)[4], std::ptrdiff_t at,
-                                  const std::uint32_t* bits) const {
-    const hn::Half<hn::RebindToUnsigned<D>> half;
-    const auto words = opaque_words(d, c[0], c[1], c[2]);
-    hn::BlendedStore(hn::LowerHalf(half, words), mask_of(half, bits[0]), half, pixels.first + at);
-    hn::BlendedStore(hn::UpperHalf(half, words), mask_of(half, bits[1]), half,
-                     pixels.first + at + stride());
+    hn::BlendedStore(hn::LowerHalf(half, words), mask_of(half, first_bits), half,
+                     pixels.first + at);
+    hn::BlendedStore(hn::UpperHalf(half, words), mask_of(half, second_bits), half,
+                     pixels.first + at + step);
   }
 #endif
 };
 
-/// Values of the channels' polynomials along a row or two, from those at the nodes' rows.
-template <bool opaque, class D, class V, class Weight>
-HWY_INLINE void colors_at(D d, const V (&across)[opaque ? 3 : 4][4], const Weight& weight,
-                          V (&c)[4]) {
+template <class D, class V>
+HWY_INLINE void clamp_colors(D d, V (&c)[4]) {
   const V zero = hn::Zero(d);
-  const V w[4] = {weight(0), weight(1), weight(2), weight(3)};
-  c[3] = hn::Set(d, 1.0f);
-  for (int k = opaque ? 2 : 3; k >= 0; --k) {
-    const V* const a = across[k];
-    const V value = (a[0] * w[0] + a[1] * w[1]) + (a[2] * w[2] + a[3] * w[3]);
-    c[k] = hn::Min(hn::Max(value, zero), c[3]);
-  }
+  c[3] = hn::Min(hn::Max(c[3], zero), hn::Set(d, 1.0f));
+  for (int k = 0; k < 3; ++k) c[k] = hn::Min(hn::Max(c[k], zero), c[3]);
 }
 
-/// Values along the nodes' rows: [channel][row].
+/// Values of the channels' polynomials along a row or two of a block's upper half and along those
+/// opposite in the lower half, where the odd terms have the other sign.
 template <bool opaque, class D, class V>
-HWY_INLINE void values_across(D d, const float* nodes, const V (&w)[4],
-                              V (&across)[opaque ? 3 : 4][4]) {
+HWY_INLINE void colors_at(D d, const V (&across)[opaque ? 3 : 4][4], const V (&t)[4], bool clamped,
+                          V (&upper)[4], V (&lower)[4]) {
+  upper[3] = lower[3] = hn::Set(d, 1.0f);
+  for (int k = 0; k < (opaque ? 3 : 4); ++k) {
+    const V* const a = across[k];
+    const V even = a[0] + a[2] * t[2], odd = a[1] * t[1] + a[3] * t[3];
+    upper[k] = even + odd;
+    lower[k] = even - odd;
+  }
+  if (clamped) clamp_colors(d, upper), clamp_colors(d, lower);
+}
+
+/// The series down at each of the columns: [channel][term].
+template <bool opaque, class D, class V>
+HWY_INLINE void series_down(D d, const float* series, const V (&t)[4],
+                            V (&across)[opaque ? 3 : 4][4]) {
   for (int k = 0; k < (opaque ? 3 : 4); ++k) {
     for (int j = 0; j < 4; ++j) {
-      const float* const n = nodes + BlockPlan::kNodes * k + 4 * j;
-      across[k][j] = (hn::Set(d, n[0]) * w[0] + hn::Set(d, n[1]) * w[1]) +
-                     (hn::Set(d, n[2]) * w[2] + hn::Set(d, n[3]) * w[3]);
+      const float* const a = series + BlockPlan::kTerms * k + 4 * j;
+      across[k][j] = (hn::Set(d, a[0]) + hn::Set(d, a[2]) * t[2]) +
+                     (hn::Set(d, a[1]) * t[1] + hn::Set(d, a[3]) * t[3]);
     }
   }
 }
 
 #if HWY_CAP_GE512
-/// Two rows of a block of eight at a time.
+/// Two rows of a block of eight at a time. All of them go through masks, also the empty ones,
+/// since branches cannot foresee what blocks are covered.
 template <bool opaque, class Target>
-HWY_INLINE void paint_pairs(const float* nodes, const PaintedBlock& block, const Target& target) {
+HWY_INLINE void paint_pairs(const float* series, bool clamped, const PaintedBlock& block,
+                            const Target& target) {
   const hn::CappedTag<float, 16> d;
   const hn::Half<decltype(d)> half;
   using V = hn::Vec<decltype(d)>;
-  using Row = hn::Vec<decltype(half)>;
-  const Row w[4] = {hn::Load(half, kNodes<8>.weight[0]), hn::Load(half, kNodes<8>.weight[1]),
-                    hn::Load(half, kNodes<8>.weight[2]), hn::Load(half, kNodes<8>.weight[3])};
-  V twice[4], across[opaque ? 3 : 4][4];
-  for (int i = 0; i < 4; ++i) twice[i] = hn::Combine(d, w[i], w[i]);
-  values_across<opaque>(d, nodes, twice, across);
-  for (int y = 0; y < 8; y += 2) {
-    if (!block.full && (block.rows[y] | block.rows[y + 1]) == 0) continue;
-    V c[4];
-    colors_at<opaque>(
-        d, across, [&](int i) { return hn::Load(d, kRowPairs.weight[y / 2][i]); }, c);
-    const std::ptrdiff_t at = block.first + y * target.stride();
-    if (block.full) {
-      target.store_pair(d, c, at);
-    } else {
-      target.store_some_pair(d, c, at, block.rows + y);
-    }
+  V t[4], across[opaque ? 3 : 4][4];
+  for (int i = 1; i < 4; ++i) {
+    const auto row = hn::Load(half, kBasis<8>.t[i]);
+    t[i] = hn::Combine(d, row, row);
+  }
+  series_down<opaque>(d, series, t, across);
+  const std::ptrdiff_t stride = target.stride();
+  const std::uint32_t* const rows = block.rows;
+  for (int y = 0; y < 4; y += 2) {
+    const int opposite = 7 - y;
+    V upper[4], lower[4];
+    for (int i = 1; i < 4; ++i) t[i] = hn::Load(d, kRowPairs.t[y / 2][i]);
+    colors_at<opaque>(d, across, t, clamped, upper, lower);
+    const std::ptrdiff_t above = block.first + y * stride, below = block.first + opposite * stride;
+    target.store_pair(d, upper, above, stride, rows[y], rows[y + 1]);
+    target.store_pair(d, lower, below, -stride, rows[opposite], rows[opposite - 1]);
   }
 }
 #endif
 
 template <int kSide, bool opaque, class Target>
-HWY_INLINE void paint_rows(const float* nodes, const PaintedBlock& block, const Target& target) {
+HWY_INLINE void paint_rows(const float* series, bool clamped, const PaintedBlock& block,
+                           const Target& target) {
   const hn::CappedTag<float, std::min(kSide, 16)> d;
   using V = hn::Vec<decltype(d)>;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const auto& weight = kNodes<kSide>.weight;
+  const std::uint32_t all = (1u << lanes) - 1;
+  const auto& basis = kBasis<kSide>.t;
   for (int x = 0; x < kSide; x += lanes) {
-    const V w[4] = {hn::Load(d, weight[0] + x), hn::Load(d, weight[1] + x),
-                    hn::Load(d, weight[2] + x), hn::Load(d, weight[3] + x)};
-    V across[opaque ? 3 : 4][4];
-    values_across<opaque>(d, nodes, w, across);
-    const std::uint32_t all = (1u << lanes) - 1;
-    for (int y = 0; y < kSide; ++y) {
-      const std::uint32_t bits = block.full ? all : block.rows[y] >> x & all;
-      if (bits == 0) continue;
-      V c[4];
-      colors_at<opaque>(
-          d, across, [&](int i) { return hn::Set(d, weight[i][y]); }, c);
-      const std::ptrdiff_t at = block.first + y * target.stride() + x;
-      if (bits == all) {
-        target.store(d, c, at);
-      } else {
-        target.store_some(d, c, at, bits);
+    V t[4], across[opaque ? 3 : 4][4];
+    for (int i = 1; i < 4; ++i) t[i] = hn::Load(d, basis[i] + x);
+    series_down<opaque>(d, series, t, across);
+    for (int y = 0; y < kSide / 2; ++y) {
+      const int rows[2] = {y, kSide - 1 - y};
+      std::uint32_t bits[2] = {all, all};
+      if (!block.full) {
+        for (int i = 0; i < 2; ++i) bits[i] = block.rows[rows[i]] >> x & all;
+        if ((bits[0] | bits[1]) == 0) continue;
+      }
+      V c[2][4];
+      for (int i = 1; i < 4; ++i) t[i] = hn::Set(d, basis[i][y]);
+      colors_at<opaque>(d, across, t, clamped, c[0], c[1]);
+      for (int i = 0; i < 2; ++i) {
+        const std::ptrdiff_t at = block.first + rows[i] * target.stride() + x;
+        if (bits[i] == all) {
+          target.store(d, c[i], at);
+        } else if (bits[i] != 0) {
+          target.store_some(d, c[i], at, bits[i]);
+        }
       }
     }
   }
@@ -230,13 +240,15 @@ HWY_INLINE bool clip(const BlockPlan& plan, const BlockPlan::Block& b, const Sam
   painted.first = top * stride + left;
   const bool whole = end - begin == b.side && last - first == b.side;
   painted.full = b.full && whole;
-  if (painted.full) return true;
+  const std::uint32_t* const rows = b.full ? kFullRows.data() : plan.rows.data() + b.coverage;
+  painted.rows = rows;
+  if (whole) return true;
   const auto before = [](int x) { return static_cast<std::uint32_t>((std::uint64_t{1} << x) - 1); };
   const std::uint32_t columns = before(end) & ~before(begin);
-  const std::uint32_t* const rows = plan.rows.data() + b.coverage;
   for (int y = 0; y < b.side; ++y) {
-    painted.rows[y] = y < first || y >= last ? 0 : b.full ? columns : rows[y] & columns;
+    painted.clipped[y] = y < first || y >= last ? 0 : rows[y] & columns;
   }
+  painted.rows = painted.clipped;
   return true;
 }
 
@@ -246,20 +258,20 @@ HWY_INLINE void paint_all(const BlockPlan& plan, const SampleWindow& window, con
   for (std::size_t i = 0; i < plan.blocks.size(); ++i) {
     const BlockPlan::Block& block = plan.blocks[i];
     if (!clip(plan, block, window, target.stride(), painted)) continue;
-    const float* const nodes = plan.nodes.data() + BlockPlan::kNodes * (opaque ? 3 : 4) * i;
+    const float* const series = plan.series.data() + BlockPlan::kTerms * (opaque ? 3 : 4) * i;
     switch (block.side) {
       case 8:
 #if HWY_CAP_GE512
-        paint_pairs<opaque>(nodes, painted, target);
+        paint_pairs<opaque>(series, block.clamped, painted, target);
 #else
-        paint_rows<8, opaque>(nodes, painted, target);
+        paint_rows<8, opaque>(series, block.clamped, painted, target);
 #endif
         break;
       case 16:
-        paint_rows<16, opaque>(nodes, painted, target);
+        paint_rows<16, opaque>(series, block.clamped, painted, target);
         break;
       default:
-        paint_rows<32, opaque>(nodes, painted, target);
+        paint_rows<32, opaque>(series, block.clamped, painted, target);
     }
   }
 }

@@ -6,8 +6,8 @@
 namespace quadrille {
 
 /// Paints those samples of the plan's blocks [begin, end) that lie in the window, of which
-/// `samples` holds the first. Up to 31 floats before and behind what is painted are read and
-/// written again. All instruction sets give the same bits.
+/// `samples` holds the first. Up to 31 floats beside what is painted, and those in up to seven rows
+/// above and below it, are read and written again. All instruction sets give the same bits.
 void paint_blocks(const BlockPlan& plan, bool opaque, const SampleWindow& window,
                   const SamplePlanes& samples);
 

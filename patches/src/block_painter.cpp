@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::size_t kPlane = std::size_t{1} * kBlockSide * kBlockSide;
 
-/// Blocks may begin left of the window and end right of it.
-constexpr int kOverhang = kBlockSides[0];
+/// Blocks may begin left of the window and end right of it, and up to seven rows above and below it
+/// are stored to without effect.
+constexpr int kOverhang = 8 * kBlockSide;
 
 void set_planes(std::vector<float>& memory, SamplePlanes& planes) {
   memory.assign(kOverhang + 4 * kPlane + kOverhang, 0.0f);

@@ -15,18 +15,18 @@ constexpr int kBlockSides[] = {32, 16, 8};
 /// How the samples of one patch get their colours.
 struct BlockPlan {
   /// A block whose polynomials are good enough. `full` where all its samples are the patch's;
-  /// otherwise `coverage` is where its rows begin.
+  /// otherwise `coverage` is where its rows begin. `clamped` where colours may leave [0, alpha].
   struct Block {
     int x, y, side;
-    bool full;
+    bool full, clamped;
     std::uint32_t coverage;
   };
-  static constexpr int kNodes = 16;
+  static constexpr int kTerms = 16;
 
   std::vector<Block> blocks;
-  /// Colours at each block's 4 x 4 Chebyshev nodes, before clamping: kNodes for each channel, of
-  /// which there are three where the patch is opaque, otherwise four.
-  std::vector<float> nodes;
+  /// Each block's colours before clamping, as Chebyshev series: see make_series(). kTerms for each
+  /// channel, of which there are three where the patch is opaque, otherwise four.
+  std::vector<float> series;
   /// A word for each row of a block that is not full; bit i stands for the sample in column i.
   std::vector<std::uint32_t> rows;
   /// The samples in none of the blocks. Without blocks the list stays empty and means all samples.
@@ -34,12 +34,12 @@ struct BlockPlan {
 
   void clear() {
     blocks.clear();
-    nodes.clear();
+    series.clear();
     rows.clear();
     points.clear();
   }
   std::size_t bytes() const {
-    return blocks.size() * sizeof(Block) + nodes.size() * sizeof(float) +
+    return blocks.size() * sizeof(Block) + series.size() * sizeof(float) +
            rows.size() * sizeof(rows[0]) + points.size() * sizeof(SampleSpan);
   }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "patch_shader.h"
 
@@ -10,6 +11,18 @@ namespace {
 
 /// Rounded down, also where rows are negative.
 int band_of(int y) { return y >> std::countr_zero(static_cast<unsigned>(kBlockSides[2])); }
+
+/// Whether three channels stay in [0, 1], roundings included: no Chebyshev polynomial leaves
+/// [-1, 1].
+bool stays_within(const float* series) {
+  constexpr float kRounding = 1e-5f;
+  for (int k = 0; k < 3; ++k, series += BlockPlan::kTerms) {
+    float swing = kRounding;
+    for (int i = 1; i < BlockPlan::kTerms; ++i) swing += std::abs(series[i]);
+    if (series[0] < swing || series[0] > 1 - swing) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -123,20 +136,22 @@ bool BlockPlanner::take(const PatchShader& shader, std::size_t tried, int side, 
   const Corner c = tried_[tried];
   find_rows(c, side);
   // Of larger blocks more is proven, and where that fails few would match. Of small parts of blocks
-  // the points are cheaper than the nodes.
-  const bool compared = complete_ && side == kSmallest && sample_count_ >= BlockPlan::kNodes;
+  // the points are cheaper than the series.
+  const bool compared = complete_ && side == kSmallest && sample_count_ >= BlockPlan::kTerms;
   if (!fit_[tried] && !compared) return false;
   const ColorBlock& block = blocks_[tried];
-  const std::size_t before = plan.nodes.size();
-  plan.nodes.resize(before + BlockPlan::kNodes * (shader.opaque() ? 3 : 4));
-  float* const nodes = plan.nodes.data() + before;
-  if (!shader.find_nodes(side, block, nodes) ||
-      !(fit_[tried] || shader.matches(block, nodes, smallest_samples()))) {
-    plan.nodes.resize(before);
+  const std::size_t before = plan.series.size();
+  plan.series.resize(before + BlockPlan::kTerms * (shader.opaque() ? 3 : 4));
+  float* const series = plan.series.data() + before;
+  if (!shader.find_series(side, block, series) ||
+      !(fit_[tried] || shader.matches(block, series, smallest_samples()))) {
+    plan.series.resize(before);
     return false;
   }
   const bool full = sample_count_ == side * side;
-  plan.blocks.push_back({c.x, c.y, side, full, static_cast<std::uint32_t>(plan.rows.size())});
+  const bool clamped = !(shader.opaque() && stays_within(series));
+  plan.blocks.push_back(
+      {c.x, c.y, side, full, clamped, static_cast<std::uint32_t>(plan.rows.size())});
   if (!full) plan.rows.insert(plan.rows.end(), rows_, rows_ + side);
   return true;
 }

@@ -24,14 +24,14 @@ void PatchShader::judge(int side, std::span<const ColorBlock> blocks, std::uint8
   }
 }
 
-bool PatchShader::find_nodes(int side, const ColorBlock& block, float* nodes) const {
+bool PatchShader::find_series(int side, const ColorBlock& block, float* series) const {
   if (!program_.regular) return false;
-  return find_block_nodes(program_, view_.map, scene_.patches().opaque, side, block, nodes);
+  return find_block_series(program_, view_.map, scene_.patches().opaque, side, block, series);
 }
 
-bool PatchShader::matches(const ColorBlock& block, const float* nodes,
+bool PatchShader::matches(const ColorBlock& block, const float* series,
                           std::uint64_t samples) const {
-  return block_matches(program_, view_.map, opaque(), block, nodes, samples);
+  return block_matches(program_, view_.map, opaque(), block, series, samples);
 }
 
 void PatchShader::shade_exactly(ColorBatch& batch, int i) {

@@ -24,10 +24,10 @@ class PatchShader {
   /// Colours at the batch's points.
   void shade(ColorBatch& batch);
 
-  /// judge_blocks(), find_block_nodes() and block_matches() of the patch.
+  /// judge_blocks(), find_block_series() and block_matches() of the patch.
   void judge(int side, std::span<const ColorBlock> blocks, std::uint8_t* fit) const;
-  bool find_nodes(int side, const ColorBlock& block, float* nodes) const;
-  bool matches(const ColorBlock& block, const float* nodes, std::uint64_t samples) const;
+  bool find_series(int side, const ColorBlock& block, float* series) const;
+  bool matches(const ColorBlock& block, const float* series, std::uint64_t samples) const;
 
  private:
   /// For points whose parameters Newton's method does not find.
