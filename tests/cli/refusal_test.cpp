@@ -29,7 +29,8 @@ void expect_refused(const CommandResult& result, const std::string& word) {
 
 TEST(Refusal, BadPicturesGetTheirVerdict) {
   std::ifstream file(sample("manifest.json"));
-  for (const auto& entry : nlohmann::json::parse(file)["files"]) {
+  const nlohmann::json manifest = nlohmann::json::parse(file);
+  for (const auto& entry : manifest.at("files")) {
     const std::string name = entry["file"];
     if (!name.starts_with("bad/")) continue;
     const fs::path folder = fresh_folder("bad");

@@ -84,7 +84,7 @@ TEST(PdfShading, ACurvedPatchInsideKeepsItsControlPointsToTheGrid) {
     int near = 0;
     for (int side = 0; side < 4; ++side) {
       for (int k = 0; k < 3; ++k) {
-        const Vector2d& p = side_curve(bezier, side)[k];
+        const Vector2d p = side_curve(bezier, side)[k];
         near += std::ranges::any_of(patch.points,
                                     [&](const Vector2d& o) { return (o - p).norm() <= kWithin; });
       }
