@@ -19,7 +19,8 @@ bool stays_within(const float* series) {
   for (int k = 0; k < 3; ++k, series += BlockPlan::kTerms) {
     float swing = kRounding;
     for (int i = 1; i < BlockPlan::kTerms; ++i) swing += std::abs(series[i]);
-    if (series[0] < swing || series[0] > 1 - swing) return false;
+    const bool within = series[0] >= swing && series[0] <= 1 - swing;  // false for NaN
+    if (!within) return false;
   }
   return true;
 }
