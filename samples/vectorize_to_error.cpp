@@ -9,7 +9,9 @@
 #include "quadrille/image_file.h"
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
+  char* end = nullptr;
+  const double wished = argc == 4 ? std::strtod(argv[2], &end) : 0;
+  if (argc != 4 || end == argv[2] || *end != '\0') {
     std::fprintf(stderr, "usage: vectorize_to_error PICTURE ERROR OUT.quad\n");
     return 2;
   }
@@ -17,7 +19,7 @@ int main(int argc, char** argv) {
     const quadrille::Raster picture = quadrille::load_image(argv[1]);
 
     quadrille::ErrorBound bound;
-    bound.mae = std::atof(argv[2]);
+    bound.mae = wished;
     bound.max_quads = 20'000;
     const quadrille::BoundedVectorization bounded = quadrille::vectorize_to_error(picture, bound);
     for (const quadrille::ErrorBoundRound& round : bounded.rounds) {
