@@ -40,7 +40,8 @@ inline constexpr auto kFullRows = [] {
 }();
 
 /// The samples of a block of which the part in the window is painted: a bit for each column of each
-/// row. `first` is the block's first sample relative to the window's.
+/// row. `first` is the block's first sample relative to the window's. `full` says of the rows what
+/// larger blocks would lose 5 % of a frame by finding out.
 struct PaintedBlock {
   bool full;
   std::ptrdiff_t first;

@@ -5,9 +5,9 @@
 
 namespace quadrille {
 
-/// Paints those samples of the plan's blocks [begin, end) that lie in the window, of which
-/// `samples` holds the first. Up to 31 floats beside what is painted, and those in up to seven rows
-/// above and below it, are read and written again. All instruction sets give the same bits.
+/// Paints those samples of the plan's blocks that lie in the window, of which `samples` holds the
+/// first. Up to 31 floats beside what is painted, and those in up to seven rows above and below it,
+/// must be there: they are stored to without effect. All instruction sets give the same bits.
 void paint_blocks(const BlockPlan& plan, bool opaque, const SampleWindow& window,
                   const SamplePlanes& samples);
 
