@@ -9,6 +9,7 @@
 
 #include "quadrille/error.h"
 #include "quadrille/left_out_formats.h"
+#include "quadrille/metrics.h"
 #include "quadrille/picture_layers.h"
 #include "quadrille/render.h"
 
@@ -94,6 +95,10 @@ void write_outputs(const OutputImage& output, const std::vector<fs::path>& paths
       if (ending_of(path) == ".vtu" && origin.picture) {
         const SceneLayer error = error_layer(*origin.picture, render(image, {}, context));
         options.vtk.patch_errors = patch_errors(image, std::get<SceneGrid>(error.content));
+      }
+      if (ending_of(path) == ".quad" && origin.picture) {
+        options.document.error =
+            document_error(compare(*origin.picture, render(image, {}, context)).mae);
       }
       export_image(image, path, options, context);
     });

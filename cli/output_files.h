@@ -30,8 +30,8 @@ struct OutputImage {
 };
 
 /// Writes the image to every output in turn, each as a stage of its own. Titles come from the
-/// image's metadata, so that a document exports to the same bytes as the run that made it; only
-/// .vtu and .vtm hold more when the origin is known.
+/// image's metadata, so that a document exports to the same bytes as the run that made it; when the
+/// origin is known, .vtu and .vtm hold more, and .quad is rounded by document_error().
 void write_outputs(const OutputImage& output, const std::vector<std::filesystem::path>& paths,
                    ExportOptions options, Observer& observer);
 

@@ -26,7 +26,8 @@ int main(int argc, char** argv) {
       std::printf("%6d quads: MAE %.4g\n", round.quads, round.mae);
     }
     if (!bounded.met) std::printf("the bound is out of reach with %d quads\n", bound.max_quads);
-    quadrille::save_document(bounded.result.image, argv[3]);
+    quadrille::save_document(bounded.result.image, argv[3],
+                             {.error = quadrille::document_error(bounded.mae)});
   } catch (const quadrille::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -38,7 +38,8 @@ Json measure(const std::filesystem::path& path, const FitRun& run,
   const double start = cpu_seconds();
   const Raster picture = load_image(path);
   const Vectorization result = vectorize(picture, run.options(), context);
-  const std::vector<std::byte> document = to_document(result.image);
+  const double mae = compare(picture, render(result.image, {}, context)).mae;
+  const std::vector<std::byte> document = to_document(result.image, {.error = document_error(mae)});
   Json figures = {{"width", picture.width}, {"height", picture.height}};
   figures["cpu"] = cpu_seconds() - start;
   figures["peak_mb"] = peak_megabytes();

@@ -1,5 +1,6 @@
 #include "quadrille/document.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <system_error>
@@ -197,6 +198,11 @@ StoredImage restore(const UnpackedDocument& document, std::size_t file_size,
 }
 
 }  // namespace
+
+double document_error(double mae) {
+  constexpr double kLeast = 0.125;
+  return std::clamp(mae, kLeast, DocumentOptions{}.error);
+}
 
 std::vector<std::byte> to_document(const VectorImage& image, const DocumentOptions& options) {
   check_storable(image);

@@ -10,6 +10,7 @@
 #include "quadrille/export.h"
 #include "quadrille/image_file.h"
 #include "quadrille/metrics.h"
+#include "quadrille/render.h"
 
 namespace quadrille::test {
 namespace {
@@ -117,6 +118,14 @@ TEST_F(Output, TheDocumentHasTheWishedSize) {
   const VectorImage image = load_document(document());
   EXPECT_NEAR(image.patch_count(), 200, 20);
   EXPECT_EQ(image.metadata.at("source"), "coast_progressive.jpg");
+}
+
+TEST_F(Output, ADocumentOfAnExactFitIsRoundedFinely) {
+  const fs::path folder = fresh_folder("exact_fit");
+  const std::string smooth = sample("pictures/smooth_freeform_gradient.png");
+  const std::string file = (folder / "smooth.quad").string();
+  expect_silent_success(quadrille({smooth, "-o", file, "--quads", "1500", "--optimize", "0"}));
+  EXPECT_LT(compare(load_image(smooth), render(load_document(file))).mae, 0.2);
 }
 
 TEST_F(Output, ADensityMapMovesQuadsUnlessItIsConstant) {

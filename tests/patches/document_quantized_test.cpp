@@ -119,6 +119,19 @@ TEST(QuantizedDocument, TheErrorIsTheWishedOne) {
   }
 }
 
+TEST(QuantizedDocument, FinerStepsStayWhenSavedAgainByDefault) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    const auto bytes = to_document(irregular_image(seed, seed % 2, seed % 3), {.error = 0.125});
+    EXPECT_EQ(to_document(from_document(bytes)), bytes) << seed;
+  }
+}
+
+TEST(QuantizedDocument, RoundingMayCostWhatPatchesMissWithinBounds) {
+  EXPECT_EQ(document_error(0), 0.125);
+  EXPECT_EQ(document_error(0.2), 0.2);
+  EXPECT_EQ(document_error(5), DocumentOptions{}.error);
+}
+
 TEST(QuantizedDocument, RoundedVerticesHardlyChangeASmoothPicture) {
   PatchMesh patches = straight_patches(testing::lattice(8, 6, 81, 61));
   for (int v = 0; v < patches.mesh.vertex_count(); ++v) {

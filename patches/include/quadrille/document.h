@@ -41,6 +41,10 @@ struct DocumentOptions {
   double error = 0.295;
 };
 
+/// DocumentOptions::error for an image that misses its source by `mae` (as of compare()): rounding
+/// may cost about as much again, between 1/8 of a step and the default.
+double document_error(double mae);
+
 /// The same image and options give the same bytes. A layer that the quantised encoding cannot hold
 /// (numbers out of proportion, a vertex of 255 quads) is stored lossless. Throws
 /// Error{limit_exceeded} for an image that takes more than 2 GiB before compression, about 10
