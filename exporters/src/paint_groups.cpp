@@ -1,27 +1,12 @@
 #include "paint_groups.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
+
+#include "quadrille/disjoint_sets.h"
 
 namespace quadrille {
 namespace {
-
-class Sets {
- public:
-  explicit Sets(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(int a, int b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 /// True when the edge of half-edge h parts two painted patches by a tear.
 bool parts(const QuadMesh& mesh, const std::vector<char>& painted, int h) {
@@ -66,8 +51,8 @@ void leave_out_across_tears(const QuadMesh& mesh, const PaintGroups& groups, int
 
 /// Patches that follow each other around a vertex of a tear, without one between them, belong on
 /// the same side of it. At a tear's end inside the picture the two sides may differ.
-Sets sides_of_tears(const QuadMesh& mesh, const std::vector<char>& painted) {
-  Sets sets(mesh.quad_count());
+DisjointSets sides_of_tears(const QuadMesh& mesh, const std::vector<char>& painted) {
+  DisjointSets sets(mesh.quad_count());
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     const auto fan = mesh.fan(v);
     int tears = 0;
@@ -87,7 +72,7 @@ Sets sides_of_tears(const QuadMesh& mesh, const std::vector<char>& painted) {
 
 PaintGroups paint_groups(const QuadMesh& mesh, const std::vector<char>& painted,
                          const std::vector<char>& paintable) {
-  Sets sets = sides_of_tears(mesh, painted);
+  DisjointSets sets = sides_of_tears(mesh, painted);
   std::vector<std::pair<int, int>> neighbours;  // sets on the two sides of a tear
   std::vector<int> size(mesh.quad_count(), 0);
   for (int q = 0; q < mesh.quad_count(); ++q) ++size[sets.find(q)];

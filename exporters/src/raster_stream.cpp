@@ -123,8 +123,10 @@ void start_vips() {
   static std::once_flag once;
   std::call_once(once, [] {
     if (VIPS_INIT("quadrille") != 0) {
+      const std::string reason = vips_error_buffer();
       vips_error_clear();
-      throw Error(ErrorCode::io_failure, "libvips does not start; check its installation");
+      throw Error(ErrorCode::io_failure,
+                  "libvips does not start (" + reason + "); check its installation");
     }
     // No operation is repeated; the cache would only keep pictures in memory.
     vips_cache_set_max(0);

@@ -18,7 +18,8 @@
 
 namespace quadrille {
 
-/// The basis at two rows of a block side by side: [y / 2][polynomial][8 (y % 2) + x].
+/// The basis at two rows of a block side by side: [y / 2][polynomial][8 (y % 2) + x]. T_0 is
+/// nowhere multiplied by, so that nobody loads it.
 struct RowPairBasis {
   alignas(64) float t[2][4][16];
 
@@ -40,8 +41,8 @@ inline constexpr auto kFullRows = [] {
 }();
 
 /// The samples of a block of which the part in the window is painted: a bit for each column of each
-/// row. `first` is the block's first sample relative to the window's. `full` says of the rows what
-/// larger blocks would lose 5 % of a frame by finding out.
+/// row. `first` is the block's first sample relative to the window's. `full` where all bits are
+/// set: paint_rows() need not look then, which saves 5 % of a frame.
 struct PaintedBlock {
   bool full;
   std::ptrdiff_t first;

@@ -32,7 +32,8 @@ void BlockPlanner::plan(const PatchShader& shader, const SampleWindow& bounds,
   plan.clear();
   if (spans.empty()) return;
   // Blocks fit and pay where a patch is some times larger, wherever the window is cut.
-  const int least = std::min(bounds.x_end - bounds.x_begin, bounds.y_end - bounds.y_begin);
+  const std::int64_t least = std::min(std::int64_t{bounds.x_end} - bounds.x_begin,
+                                      std::int64_t{bounds.y_end} - bounds.y_begin);
   int largest = kBlockSides[0];
   while (largest >= kSmallest && 2 * largest > least) largest /= 2;
   if (largest < kSmallest) return;

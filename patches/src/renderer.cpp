@@ -76,9 +76,9 @@ class Renderer::Implementation {
     arena_.for_each(grid.size(), [&](std::size_t index) {
       const PixelRegion tile = grid.tile(index);
       TilePainter& painter = painters_.local();
-      std::byte* const corner = static_cast<std::byte*>(buffer.pixels) +
-                                (tile.y - frame.region.y) * buffer.row_bytes +
-                                (tile.x - frame.region.x) * layout.channels * bytes_of(layout.type);
+      const std::ptrdiff_t left = tile.x - frame.region.x, top = tile.y - frame.region.y;
+      std::byte* const corner = static_cast<std::byte*>(buffer.pixels) + top * buffer.row_bytes +
+                                left * layout.channels * bytes_of(layout.type);
       if (as_words) {
         copy(painter.paint_words(scenes_[0], tile, packer), tile, streamed, corner,
              buffer.row_bytes);
@@ -101,7 +101,9 @@ class Renderer::Implementation {
 
   void prepare(const OutputFrame& frame) {
     if (scenes_.empty()) {
-      for (const Layer& layer : image_.layers) scenes_.emplace_back(layer, arena_);
+      std::vector<LayerScene> scenes;  // all layers' or, where one is refused, none
+      for (const Layer& layer : image_.layers) scenes.emplace_back(layer, arena_);
+      scenes_ = std::move(scenes);
     }
     for (LayerScene& scene : scenes_) {
       scene.prepare(frame.scale, samples_of(frame.region, frame.box), arena_);

@@ -44,12 +44,20 @@ TEST(ChebyshevBasis, SeriesThroughTheNodesOfABicubicIsThatBicubic) {
   expect_exact<32>();
 }
 
-TEST(ChebyshevBasis, IsEvenOrOddToTheLastBit) {
+template <int kSide>
+void expect_even_or_odd() {
   for (int i = 0; i < 4; ++i) {
-    for (int x = 0; x < 16; ++x) {
-      EXPECT_EQ(kBasis<16>.t[i][15 - x], (i % 2 ? -1 : 1) * kBasis<16>.t[i][x]) << i << ", " << x;
+    const auto& t = kBasis<kSide>.t[i];
+    for (int x = 0; x < kSide; ++x) {
+      EXPECT_EQ(t[kSide - 1 - x], (i % 2 ? -1 : 1) * t[x]) << kSide << ": " << i << ", " << x;
     }
   }
+}
+
+TEST(ChebyshevBasis, IsEvenOrOddToTheLastBit) {
+  expect_even_or_odd<8>();
+  expect_even_or_odd<16>();
+  expect_even_or_odd<32>();
 }
 
 }  // namespace

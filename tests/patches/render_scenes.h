@@ -15,6 +15,18 @@ inline VectorImage random_image(std::uint32_t seed, bool opaque = true) {
   return single_layer(std::move(patches), 37, 29);
 }
 
+/// Opaque, with colours far below 0 and above 1, where they are drawn cut off.
+inline VectorImage overshooting_image(std::uint32_t seed) {
+  VectorImage image = random_image(seed);
+  for (Wedge& w : image.layers[0].patches.wedges) {
+    for (int k = 0; k < 3; ++k) {
+      w.value[k] = 0.5f + 3 * (w.value[k] - 0.5f);
+      w.dx[k] *= 3, w.dy[k] *= 3, w.twist[k] *= 3;
+    }
+  }
+  return image;
+}
+
 /// A picture of width x height with a rectangle of one colour (premultiplied) in it.
 inline Layer rectangle(double x, double y, double width, double height, const Color& color) {
   Layer layer;

@@ -9,7 +9,7 @@
 
 #include "patch_scan.h"
 #include "quadrille/error.h"
-#include "support/random_patches.h"
+#include "render_scenes.h"
 
 namespace {
 
@@ -30,17 +30,13 @@ void* operator new(std::size_t size) {
 namespace quadrille {
 namespace {
 
+using testing::overshooting_image;
 using testing::Random;
+using testing::random_image;
 using testing::random_patches;
 using testing::set_linear_colors;
 using testing::set_random_colors;
 using testing::single_layer;
-
-VectorImage random_image(std::uint32_t seed, bool opaque = true) {
-  PatchMesh patches = random_patches(6, 5, 37, 29, seed, {0.25, 0.8});
-  set_random_colors(patches, seed + 100, opaque);
-  return single_layer(std::move(patches), 37, 29);
-}
 
 RunContext with_threads(int threads) {
   RunContext context;
@@ -95,8 +91,7 @@ Eigen::Array4d color_at(const BicubicHermite<Color>& color, double u, double v) 
   return exact.at(u, v).max(0).min(1);
 }
 
-TEST(Renderer, IsWithinRoundingOfExactEvaluation) {
-  const VectorImage image = random_image(3);
+void expect_within_rounding_of_exact_evaluation(const VectorImage& image) {
   const PatchMesh& patches = image.layers[0].patches;
   Renderer renderer(image);
   for (const double scale : {1.0, 4.0, 16.0, 64.0}) {
@@ -132,6 +127,16 @@ TEST(Renderer, IsWithinRoundingOfExactEvaluation) {
     EXPECT_EQ(count, region.width * region.height);
     EXPECT_LE(worst, 0.51) << "scale " << scale;
   }
+}
+
+TEST(Renderer, IsWithinRoundingOfExactEvaluation) {
+  expect_within_rounding_of_exact_evaluation(random_image(3));
+}
+
+TEST(Renderer, CutsOffColorsWithinRoundingOfExactEvaluation) {
+  const VectorImage image = overshooting_image(3);
+  ASSERT_TRUE(image.opaque());
+  expect_within_rounding_of_exact_evaluation(image);
 }
 
 TEST(Renderer, RegionsThreadsAndFramesGiveTheSameBytes) {
@@ -211,29 +216,63 @@ TEST(Renderer, ChannelsAndSizeDoNotChangeOpaquePixels) {
   }
 }
 
+/// Draws with every instruction set that there is, and fails where their bytes differ.
+void expect_same_bytes_of_all_targets(const VectorImage& image, const RenderOptions& options,
+                                      const PixelLayout& layout) {
+  Renderer best(image);
+  const Bytes expected = draw(best, image, options, layout);
+  const std::int64_t available = hwy::SupportedTargets();
+  for (std::int64_t rest = available; rest != 0; rest &= rest - 1) {
+    hwy::SetSupportedTargetsForTest(rest & -rest);
+    hwy::GetChosenTarget().DeInit();
+    Renderer renderer(image);
+    EXPECT_TRUE(draw(renderer, image, options, layout).data == expected.data)
+        << hwy::TargetName(rest & -rest) << " scale " << options.scale << " columns from "
+        << (options.region ? options.region->x : 0);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+}
+
 TEST(Renderer, InstructionSetsGiveTheSameBytes) {
-  for (const bool opaque : {false, true}) {
-    const VectorImage image = random_image(8, opaque);
+  for (const VectorImage& image :
+       {random_image(8, false), random_image(8), overshooting_image(8)}) {
     for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32}) {
       for (const double scale : {0.5, 1.0, 7.0, 20.0}) {
         RenderOptions options;
         options.scale = scale;
         options.background = {0.2f, 0.4f, 0.6f, 0.5f};
-        Renderer best(image);
-        const Bytes expected = draw(best, image, options, {type, 4});
-        const std::int64_t available = hwy::SupportedTargets();
-        for (std::int64_t rest = available; rest != 0; rest &= rest - 1) {
-          hwy::SetSupportedTargetsForTest(rest & -rest);
-          hwy::GetChosenTarget().DeInit();
-          Renderer renderer(image);
-          EXPECT_TRUE(draw(renderer, image, options, {type, 4}).data == expected.data)
-              << hwy::TargetName(rest & -rest) << " scale " << scale;
+        expect_same_bytes_of_all_targets(image, options, {type, 4});
+        if (scale < 5) continue;
+        // Windows cut blocks on all sides.
+        for (const PixelRegion& region :
+             {PixelRegion{13, 9, 61, 47}, PixelRegion{70, 33, 45, 90}}) {
+          options.region = region;
+          expect_same_bytes_of_all_targets(image, options, {type, 4});
         }
-        hwy::SetSupportedTargetsForTest(0);
-        hwy::GetChosenTarget().DeInit();
       }
     }
   }
+}
+
+TEST(Renderer, DrawsNothingOfAnImageWithALayerThatIsRefused) {
+  VectorImage image = random_image(8);
+  image.layers.push_back(image.layers[0]);
+  image.layers[1].transform.translate(Eigen::Vector2d(NAN, 0));
+  Renderer renderer(image);
+  for (int frame = 0; frame < 2; ++frame) EXPECT_THROW(draw(renderer, image, {}), Error) << frame;
+}
+
+TEST(Renderer, PatchesMayBeWiderThanAnIntTellsSamplesApart) {
+  PatchMesh patches = straight_patches(testing::lattice(1, 1, 3.6, 3.6));
+  set_linear_colors(patches, Color(0.1f, 0.2f, 0.3f, 1.0f));
+  VectorImage image = single_layer(std::move(patches), 1, 1);
+  image.layers[0].transform.translate(Eigen::Vector2d(-1.8, -1.8));
+  RenderOptions options;
+  options.scale = std::ldexp(1.0, 30);
+  options.region = PixelRegion{1 << 29, 1 << 29, 64, 64};
+  Renderer renderer(image);
+  EXPECT_NO_THROW(draw(renderer, image, options));
 }
 
 TEST(Renderer, AllocatesNothingInTheSteadyState) {

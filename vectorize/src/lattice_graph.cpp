@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "lattice_shift.h"
+#include "quadrille/disjoint_sets.h"
 
 namespace quadrille {
 namespace {
@@ -43,24 +43,6 @@ Shifts neighbour_shifts(const CrossField& field, const ScaleField& scale,
   }
   return shifts;
 }
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(int a, int b) {
-    a = find(a), b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 /// Numbers the regions in the order of their first pixels.
 FieldGrid<int> label_regions(const Shifts& shifts, int& count) {

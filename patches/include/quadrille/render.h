@@ -44,7 +44,7 @@ std::array<int, 2> output_size(const VectorImage& image, const RenderOptions& op
 /// 1 / scale. The same bytes for any thread count.
 ///
 /// Time and memory are in proportion to the region, besides one quick test of every patch (some
-/// 10 ns) and 100 bytes for it, so that outputs larger than memory can be drawn region by region.
+/// 10 ns) and 300 bytes for it, so that outputs larger than memory can be drawn region by region.
 /// Throws what output_size() throws; Error{invalid_argument} for a region that is not inside the
 /// output, or a background, transform or mesh that is not finite; Error{limit_exceeded} for a
 /// region above 2^32 pixels and for patches in it that reach 2^31 samples from the origin.

@@ -25,9 +25,9 @@ struct PixelBuffer {
 };
 
 /// Draws a picture again and again, as a viewer does for every frame: patches are set up when first
-/// seen and kept, 400 bytes each, and outlines are kept while the scale stays the same. After a
-/// first drawing, another one of the same region and layout by one thread allocates no memory, and
-/// others only where they see more than before.
+/// seen and kept, some 900 bytes each, and so are, while the scale stays the same, outlines and up
+/// to 200 MB of blocks. After a first drawing, another one of the same region and layout by one
+/// thread allocates no memory, and others only where they see more than before.
 ///
 /// What is drawn is documented at render(), which is a Renderer used once. An object serves one
 /// call at a time; the threads are inside.
