@@ -40,7 +40,8 @@ std::string help_hint(const std::string& command) {
 }
 
 int explain(const CLI::App& parser, const std::vector<std::string>& arguments) {
-  const std::string topic = arguments.size() > 1 ? arguments[1] : "";
+  std::string topic = arguments.size() > 1 ? arguments[1] : "";
+  if (topic == "-h" || topic == "--help") topic = "help";
   if (arguments.size() > 2 || (!topic.empty() && !is_command(topic))) {
     const std::string words = arguments[1] + (arguments.size() > 2 ? " " + arguments[2] : "");
     throw UsageError("there is no sub-command '" + words + "'; " + help_hint(""));

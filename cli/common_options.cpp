@@ -102,6 +102,7 @@ void declare_quad_options(CLI::App& parser, MeshOptions& options) {
   parser
       .add_option("--density", options.density,
                   "picture of any size, stretched over IN: more quads where it is brighter")
+      ->check(file_name())
       ->type_name("MAP");
 }
 
@@ -147,6 +148,14 @@ void declare_output(CLI::App& parser, std::filesystem::path& output, const std::
   parser.add_option("-o,--output", output, what + " to write; its ending chooses the format")
       ->required()
       ->type_name("FILE");
+}
+
+CLI::Validator file_name() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        return text.empty() ? "the name of the file is empty" : "";
+      },
+      "", "file name");
 }
 
 CLI::Validator positive_number() {

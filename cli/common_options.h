@@ -52,6 +52,8 @@ void declare_output(CLI::App& parser, std::filesystem::path& output,
 
 /// Accepts finite numbers above 0.
 CLI::Validator positive_number();
+/// Refuses the empty name, which scripts pass for variables that are not set.
+CLI::Validator file_name();
 
 /// Accepts numbers from low to high; other than CLI::Range, no NaN.
 CLI::Validator number_from(double low, double high);

@@ -29,9 +29,12 @@ int run_export(const ExportRequest& request) {
         "--source is for .vtm and .vtu outputs, which hold the error; leave it out; see 'quadrille "
         "help export'");
   }
-  check_outputs(request.outputs, request.input, export_endings());
+  check_outputs(request.outputs, {request.input, request.source}, export_endings());
   Observer observer(request.run.verbosity(), request.run.threads);
   const VectorImage image = observer.stage("read", [&] { return import_image(request.input); });
+  for (const std::filesystem::path& output : request.outputs) {
+    check_size(image.width, image.height, request.files.raster, output);
+  }
   std::shared_ptr<const Raster> source;
   if (needs_source) source = read_source(request.input, request.source, image, observer);
   write_outputs({image, {source.get(), nullptr}}, request.outputs, request.files, observer);
@@ -49,6 +52,7 @@ Action declare_export(CLI::App& parser) {
           "--source", request->source,
           "the picture that the patches were made of, for its error in .vtm and .vtu files; "
           "a .vtm keeps it")
+      ->check(file_name())
       ->type_name("PICTURE");
   declare_export_options(parser, request->files);
   declare_run_options(parser, request->run);

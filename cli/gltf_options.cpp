@@ -39,8 +39,10 @@ void declare_gltf_options(CLI::App& parser, GltfOptions& options) {
       "triangles");
   parser
       .add_option("--texture-ppi", options.texels_per_pixel,
-                  "texels per pixel of the picture, for .glb and .gltf")
+                  "texels per pixel of the picture, for .glb and .gltf; fewer where a side would "
+                  "exceed 8192")
       ->check(positive_number())
+      ->check(number_from(1 / 64.0, 1024))
       ->capture_default_str();
   declare_choice<GltfTextureFormat>(parser, "--texture-format", options.texture_format,
                                     {{"png", GltfTextureFormat::png},

@@ -153,11 +153,17 @@ std::string described(const DocumentStorage::LayerStorage& layer) {
                      std::ldexp(1.0, -layer.position_bits), layer.color_step);
 }
 
+std::string counted(long long count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
 std::string described(const Contents& c) {
-  std::string text =
-      fmt::format("{} patches, {} vertices, {} wedges", c.patches, c.vertices, c.wedges);
+  std::string text = counted(c.patches, "patch", "patches") + ", " +
+                     counted(c.vertices, "vertex", "vertices") + ", " +
+                     counted(c.wedges, "wedge", "wedges");
   if (c.tears > 0) {
-    text += fmt::format(", {} tear edges of {:.1f} pixels together", c.tears, c.tear_length);
+    text += fmt::format(", {} of {:.1f} pixels together",
+                        counted(c.tears, "tear edge", "tear edges"), c.tear_length);
   }
   return text;
 }

@@ -42,6 +42,21 @@ int write_all_stages(const InspectRequest& request, const Raster& picture, Obser
   return kSuccess;
 }
 
+double scale_of(const InspectRequest& request, const Raster& picture) {
+  return request.scale > 0 ? request.scale : readable_scale(picture.width, picture.height);
+}
+
+void check_drawing(const InspectRequest& request, const Raster& picture) {
+  constexpr double kMostPixels = 1e8;  // 2 GB while it is drawn and written
+  const double scale = scale_of(request, picture), width = std::round(scale * picture.width),
+               height = std::round(scale * picture.height);
+  if (width * height <= kMostPixels) return;
+  throw Error(ErrorCode::limit_exceeded,
+              fmt::format("cannot write '{}': a drawing of {:g} x {:g} pixels is above 100 million "
+                          "pixels; choose a smaller --scale",
+                          request.output.string(), width, height));
+}
+
 int run_inspect(const InspectRequest& request) {
   constexpr double kFade = 0.55;
   const bool all_stages = ending_of(request.output) == ".vtm";
@@ -50,10 +65,14 @@ int run_inspect(const InspectRequest& request) {
                                             : "--stage is required unless the output is .vtm") +
                      "; see 'quadrille help inspect'");
   }
-  check_outputs({request.output}, request.input, inspect_endings());
+  if (all_stages && request.scale > 0) {
+    throw UsageError("a .vtm file has no pixels; leave out --scale; see 'quadrille help inspect'");
+  }
+  check_outputs({request.output}, {request.input, request.mesh.density}, inspect_endings());
   Observer observer(request.run.verbosity(), request.run.threads);
   const Raster picture = read_picture(request.input, observer);
   if (all_stages) return write_all_stages(request, picture, observer);
+  check_drawing(request, picture);
   const ChosenOptions options = choose_options(request.mesh, picture, observer);
   const Quadrangulation stages = with_name_of(
       request.input, [&] { return quadrangulate(picture, options.vectorize, observer.context()); });
@@ -68,9 +87,7 @@ int run_inspect(const InspectRequest& request) {
   }
 
   const Raster drawing = observer.stage("draw", [&] {
-    Canvas canvas(picture,
-                  request.scale > 0 ? request.scale : readable_scale(picture.width, picture.height),
-                  kFade);
+    Canvas canvas(picture, scale_of(request, picture), kFade);
     for (const SceneLayer& layer : chosen->layers(stages, 1 / canvas.zoom())) {
       draw_layer(canvas, layer);
     }

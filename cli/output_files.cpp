@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_output(const fs::path& output, const fs::path& input,
+void check_output(const fs::path& output, const std::vector<fs::path>& inputs,
                   const std::vector<std::string>& endings) {
   const std::string ending = ending_of(output);
   if (std::ranges::find(endings, ending) == endings.end()) {
@@ -44,7 +44,8 @@ void check_output(const fs::path& output, const fs::path& input,
         ErrorCode::io_failure,
         fmt::format("cannot write '{}': it is a folder; give a file name", output.string()));
   }
-  if (fs::equivalent(output, input, ignored)) {
+  for (const fs::path& input : inputs) {
+    if (!fs::equivalent(output, input, ignored)) continue;
     throw Error(
         ErrorCode::invalid_argument,
         fmt::format("'{}' would overwrite the input; choose another name", output.string()));
@@ -65,17 +66,30 @@ std::string ending_of(const fs::path& path) {
   return ending;
 }
 
-void check_outputs(const std::vector<fs::path>& outputs, const fs::path& input,
+void check_outputs(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs,
                    const std::vector<std::string>& endings) {
   std::vector<fs::path> seen;
   for (const fs::path& output : outputs) {
-    check_output(output, input, endings);
+    check_output(output, inputs, endings);
     const fs::path plain = fs::absolute(output).lexically_normal();
     if (std::ranges::find(seen, plain) != seen.end()) {
       throw Error(ErrorCode::invalid_argument,
                   fmt::format("'{}' is named twice as an output; name it once", output.string()));
     }
     seen.push_back(plain);
+  }
+}
+
+void check_size(double image_width, double image_height, const RasterFileOptions& options,
+                const fs::path& output) {
+  if (std::ranges::find(kRasterEndings, ending_of(output)) == kRasterEndings.end()) return;
+  VectorImage empty;
+  empty.width = image_width;
+  empty.height = image_height;
+  try {
+    output_size(empty, {.scale = options.scale, .width = options.width});
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("cannot write '{}': {}", output.string(), error.what()));
   }
 }
 

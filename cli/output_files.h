@@ -19,9 +19,16 @@ std::string ending_of(const std::filesystem::path& path);
 
 /// Refuses, before anything is computed, outputs whose ending is not among `endings`, whose folder
 /// is missing or closed to us, that are folders themselves, that are named twice, or that would
-/// overwrite the input. Throws Error{unsupported_format}, {io_failure} or {invalid_argument}.
+/// overwrite one of the inputs, of which empty ones are none. Throws Error{unsupported_format},
+/// {io_failure} or {invalid_argument}.
 void check_outputs(const std::vector<std::filesystem::path>& outputs,
-                   const std::filesystem::path& input, const std::vector<std::string>& endings);
+                   const std::vector<std::filesystem::path>& inputs,
+                   const std::vector<std::string>& endings);
+
+/// Refuses a scale or width that makes a picture too large for `output`; for formats without pixels
+/// it does nothing. Throws Error{limit_exceeded}.
+void check_size(double image_width, double image_height, const RasterFileOptions& options,
+                const std::filesystem::path& output);
 
 /// An image and what is known of how it was made.
 struct OutputImage {

@@ -63,7 +63,7 @@ void check_region(const RenderRequest& request, const PixelRegion& region,
 
 int run_render(const RenderRequest& request) {
   check_mesh_options(request.input, request.mesh);
-  check_outputs({request.output}, request.input, kRasterEndings);
+  check_outputs({request.output}, {request.input, request.mesh.density}, kRasterEndings);
   Observer observer(request.run.verbosity(), request.run.threads);
   const VectorImage image = read_vector_image(request.input, request.mesh, observer);
 
@@ -71,6 +71,7 @@ int run_render(const RenderRequest& request) {
   file.scale = request.scale;
   file.width = request.width;
   file.bits = request.bits;
+  check_size(image.width, image.height, file, request.output);
   observer.stage("render", [&] {
     if (request.region.empty()) {
       write_raster_file(image, request.output, file, observer.context());

@@ -13,7 +13,6 @@
 #include "export_options.h"
 #include "output_files.h"
 #include "picture_input.h"
-#include "quadrille/render.h"
 #include "report.h"
 
 namespace quadrille::cli {
@@ -30,15 +29,6 @@ struct VectorizeRequest {
   MeshOptions mesh;
   RunOptions run;
 };
-
-void check_scale(const Raster& picture, double scale) {
-  VectorImage empty;
-  empty.width = picture.width;
-  empty.height = picture.height;
-  RenderOptions options;
-  options.scale = scale;
-  output_size(empty, options);  // throws when there is no such picture
-}
 
 /// With a bound on the error, --quads is the ceiling and the preset's number only the start.
 BoundedVectorization vectorize_within(const VectorizeRequest& request, const Raster& picture,
@@ -77,12 +67,15 @@ Made make(const VectorizeRequest& request, const Raster& picture, const Vectoriz
 
 int run_vectorize(const VectorizeRequest& request) {
   const auto start = std::chrono::steady_clock::now();
-  check_outputs(request.outputs, request.input, export_endings());
-  if (!request.report.empty()) check_outputs({request.report}, request.input, {".json"});
+  const std::vector<fs::path> inputs = {request.input, request.mesh.density};
+  check_outputs(request.outputs, inputs, export_endings());
+  if (!request.report.empty()) check_outputs({request.report}, inputs, {".json"});
   Observer observer(request.run.verbosity(), request.run.threads);
 
   const Raster picture = read_picture(request.input, observer);
-  check_scale(picture, request.files.raster.scale);
+  for (const fs::path& output : request.outputs) {
+    check_size(picture.width, picture.height, request.files.raster, output);
+  }
   MeshOptions mesh = request.mesh;
   if (request.max_error) mesh.quads.reset();
   const ChosenOptions chosen = choose_options(mesh, picture, observer);
@@ -123,6 +116,7 @@ Action declare_vectorize(CLI::App& parser) {
       ->check(number_from(0, 255));
   declare_export_options(parser, request->files);
   parser.add_option("--report", request->report, "write what the run measured as JSON")
+      ->check(file_name())
       ->type_name("FILE.json");
   declare_run_options(parser, request->run);
   return [request] { return run_vectorize(*request); };

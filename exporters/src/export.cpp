@@ -147,6 +147,10 @@ VectorImage import_image(const std::filesystem::path& path) {
   if (ending == ".vtu") return read_vtu(path);
   if (ending == ".vtm") return read_vtm(path);
 #endif
+  if (std::error_code ignored; std::filesystem::is_directory(path, ignored)) {
+    throw Error(ErrorCode::io_failure, "cannot read patches from '" + path.string() +
+                                           "': it is a folder; name a file in it");
+  }
   refuse_ending(path, "read patches from", import_endings());
 }
 

@@ -101,18 +101,20 @@ void put_binary(std::ostream& file, std::string text, std::span<const unsigned c
   for (std::size_t k = 0; k < padding; ++k) file.put('\0');
 }
 
-/// write_stream_atomically() would complain of a file that nobody named.
+/// Files beside replace those of an older .gltf of the name, but nothing else.
 void check_obstacles(std::span<const SideFile> files) {
+  std::error_code error;
+  const bool replaced = fs::exists(files.front().path, error);
   for (const SideFile& beside : files.subspan(1)) {
-    std::error_code error;
     const fs::file_status status = fs::status(beside.path, error);
-    if (status.type() == fs::file_type::not_found || fs::is_regular_file(status)) continue;
+    const bool is_file = fs::is_regular_file(status);
+    if (status.type() == fs::file_type::not_found || (is_file && replaced)) continue;
+    std::string reason = "cannot be made (" + error.message() + ");";
+    if (fs::status_known(status)) reason = "is no file; move it or";
+    if (is_file) reason = "is there already and belongs to no such file; move it or";
     throw Error(ErrorCode::io_failure,
                 "cannot write '" + files.front().path.string() + "': '" + beside.path.string() +
-                    "', which belongs to it, " +
-                    (fs::status_known(status) ? "is no file; move it or"
-                                              : "cannot be made (" + error.message() + ");") +
-                    " choose another name");
+                    "', which has to lie beside it, " + reason + " choose another name");
   }
 }
 

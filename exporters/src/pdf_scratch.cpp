@@ -22,15 +22,15 @@ std::FILE* open_scratch(const std::filesystem::path& target) {
 }  // namespace
 
 ScratchFile::ScratchFile(const std::filesystem::path& target)
-    : folder_(std::filesystem::weakly_canonical(std::filesystem::absolute(target)).parent_path()),
-      file_(open_scratch(folder_ / target.filename())) {
+    : target_(target),
+      file_(open_scratch(std::filesystem::weakly_canonical(std::filesystem::absolute(target)))) {
   if (!file_) fail("made");
 }
 
 void ScratchFile::fail(const char* what) const {
   throw Error(ErrorCode::io_failure,
-              std::string("a temporary file in '") + folder_.string() + "' cannot be " + what +
-                  "; check the free space of the disk or choose another path");
+              "cannot write '" + target_.string() + "': a temporary file beside it cannot be " +
+                  what + "; check the free space of the disk or choose another path");
 }
 
 void ScratchFile::append(Bytes bytes) {

@@ -34,7 +34,7 @@ class ScratchFile {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  std::filesystem::path folder_;
+  std::filesystem::path target_;
   std::unique_ptr<std::FILE, Close> file_;
   long long size_ = 0;
 };

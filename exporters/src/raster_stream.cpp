@@ -213,6 +213,7 @@ VipsImagePtr as_vips_image(Drawing& drawing) {
   }
   reason.erase(reason.find_last_not_of('\n') + 1);
   reason.erase(0, reason.rfind('\n') + 1);
+  if (reason.find(temporary.string()) != std::string::npos) reason = "not all bytes arrived";
   throw Error(ErrorCode::io_failure, "cannot write '" + path.string() + "': " + reason +
                                          "; check the free space or choose another path");
 }

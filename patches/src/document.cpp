@@ -131,6 +131,9 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) refuse("it is a folder; name a document in it");
   const auto size = std::filesystem::file_size(path, error);
+  if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path)) {
+    refuse("it is not a regular file; name a document");
+  }
   if (error) refuse(error.message() + "; check the path");
   if (size > kLargestDocument) refuse("it is larger than 2 GiB; use an intact copy");
   std::ifstream file(path, std::ios::binary);

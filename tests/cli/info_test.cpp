@@ -78,7 +78,7 @@ TEST(Info, CountsTearsAndMeasuresThemInThePicture) {
 
   const CommandResult text = quadrille({"info", file.string()});
   EXPECT_EQ(text.exit_code, 0);
-  EXPECT_THAT(text.out, HasSubstr("2 patches, 6 vertices, 8 wedges, 1 tear edges of 8.0 pixels"));
+  EXPECT_THAT(text.out, HasSubstr("2 patches, 6 vertices, 8 wedges, 1 tear edge of 8.0 pixels"));
   EXPECT_THAT(text.out, HasSubstr("two\\nlines"));
 }
 

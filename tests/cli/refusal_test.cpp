@@ -118,6 +118,19 @@ TEST(Refusal, TheInputIsNeverOverwritten) {
   const fs::path picture = folder / "one.png";
   fs::copy_file(sample("formats/one_pixel.png"), picture);
   expect_refused(quadrille({picture.string(), "-o", picture.string()}), "overwrite");
+  const std::string other = sample("formats/uniform_gray.png");
+  expect_refused(quadrille({other, "-o", picture.string(), "--density", picture.string()}),
+                 "overwrite");
+  const std::string document = (folder / "a.quad").string();
+  expect_silent_success(quadrille({picture.string(), "-o", document}));
+  expect_refused(quadrille({"render", picture.string(), "-o", picture.string()}), "overwrite");
+  if (std::ranges::count(export_endings(), ".vtu") != 0) {
+    const fs::path scene = folder / "b.vtu";
+    fs::copy_file(picture, scene);
+    expect_refused(
+        quadrille({"export", document, "-o", scene.string(), "--source", scene.string()}),
+        "overwrite");
+  }
   EXPECT_EQ(bytes_of(picture), bytes_of(sample("formats/one_pixel.png")));
 }
 
@@ -155,6 +168,8 @@ TEST(Refusal, ObstaclesBesideAFile) {
   };
   fs::create_directory(folder / "a.bin");
   expect_obstacle("a.gltf", "a.bin");
+  std::ofstream(folder / "e-texture-0.png") << "mine";
+  expect_obstacle("e.gltf", "e-texture-0.png");
   std::ofstream(folder / "b_vtm") << "mine";
   expect_obstacle("b.vtm", "b_vtm");
   std::ofstream(folder / "b.vtm") << "mine";
@@ -185,7 +200,12 @@ TEST(Refusal, TooLargeAScaleIsRefusedBeforeTheWork) {
   const fs::path folder = fresh_folder("scale");
   expect_refused(quadrille({sample("formats/uniform_gray.png"), "-o", (folder / "a.png").string(),
                             "--scale", "1e12"}),
-                 "");
+                 "a.png");
+  for (const char* scale : {"2000", "1e30", "1e308"}) {
+    expect_refused(quadrille({"inspect", sample("formats/uniform_gray.png"), "-o",
+                              (folder / "b.png").string(), "--stage", "quads", "--scale", scale}),
+                   "b.png");
+  }
   EXPECT_THAT(files_in(folder), IsEmpty());
 }
 

@@ -114,6 +114,11 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{"render", "a.quad", "-o", "b.png", "--bits", "12"},
         std::vector<std::string>{"inspect", "a.png", "-o", "b.png"},
         std::vector<std::string>{"inspect", "a.png", "-o", "b.vtm", "--stage", "quads"},
+        std::vector<std::string>{"inspect", "a.png", "-o", "b.vtm", "--scale", "2"},
+        std::vector<std::string>{"a.png", "-o", "b.svg", "--report", ""},
+        std::vector<std::string>{"a.png", "-o", "b.svg", "--density", ""},
+        std::vector<std::string>{"export", "a.quad", "-o", "b.vtu", "--source", ""},
+        std::vector<std::string>{"a.png", "-o", "b.glb", "--texture-ppi", "1e9"},
         std::vector<std::string>{"inspect", "a.png", "-o", "b.png", "--stage", "colour"},
         std::vector<std::string>{"compare", "a.png"}, std::vector<std::string>{"info"},
         std::vector<std::string>{"info", "a.quad", "--xml"}));

@@ -44,6 +44,8 @@ TEST(Export, EveryEndingMakesAFile) {
       fs::remove(path);
       fs::remove_all(output("every_files"));  // the tiles of .dzi
       fs::remove_all(output("every_vtm"));    // the pieces of .vtm
+      fs::remove(output("every.bin"));        // what lies beside .gltf
+      fs::remove(output("every-texture-0.png"));
     }
   }
 }

@@ -172,6 +172,9 @@ TEST(ViewCommand, RefusesWhatCannotBeShown) {
   expect_complaint(view({files.document, "--screenshot", files.out, "--source", small}), 1,
                    "20 x 10");
   expect_complaint(view({files.document, "--screenshot", "out.jpg"}), 1, ".jpg");
+  expect_complaint(view({files.document, "--screenshot", ""}), 2, "empty");
+  expect_complaint(view({files.document, "--source", files.source, "--screenshot", files.source}),
+                   1, "overwrite");
   EXPECT_FALSE(fs::exists(files.out));
 }
 

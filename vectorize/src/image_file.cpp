@@ -86,7 +86,7 @@ void check_size(const VipsImage* image, const fs::path& path, const ImageLimits&
   throw Error(ErrorCode::limit_exceeded,
               quoted(path) + " has " + std::to_string(width) + " x " + std::to_string(height) +
                   " pixels, more than the limit of " + std::to_string(limits.max_pixels) +
-                  "; make it smaller or raise the limit");
+                  "; make it smaller");
 }
 
 [[noreturn]] void refuse_samples(const fs::path& path) {

@@ -157,7 +157,10 @@ void print_rates(ViewerWindow& window) {
 int view(const ViewOptions& options) {
   const Clock::time_point start = Clock::now();
   const bool screenshot = !options.screenshot.empty();
-  if (screenshot) cli::check_outputs({options.screenshot}, options.input, {".png"});
+  if (screenshot) {
+    cli::check_outputs({options.screenshot}, {options.input, options.source, options.mesh.density},
+                       {".png"});
+  }
   const LayerList layers = options.layers.empty() ? LayerList() : parse_layers(options.layers);
   const DisplayConnection display;  // complain of it before anything is computed
   cli::Observer observer(options.run.verbosity(), options.run.threads, "quadrille-view");

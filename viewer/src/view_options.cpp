@@ -78,10 +78,12 @@ void declare_view_options(CLI::App& parser, ViewOptions& options) {
       .add_option(
           "--source", options.source,
           "the picture that the patches were made of, for their error, fields and comparison")
+      ->check(cli::file_name())
       ->type_name("PICTURE");
   CLI::Option* screenshot = parser
                                 .add_option("--screenshot", options.screenshot,
                                             "draw the view into a file instead of a window")
+                                ->check(cli::file_name())
                                 ->type_name("OUT.png");
   parser
       .add_option("--layers", options.layers,
