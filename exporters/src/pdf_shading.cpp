@@ -20,6 +20,8 @@ using Geometry = BicubicHermite<Vector2d>;
 constexpr double kOverlap = 0.0625, kBeyondPage = 0.5, kBeyondEdge = 0.75;
 /// The same in parameters of a patch, at most.
 constexpr double kWidestOverlap = 0.25, kWidestReach = 0.5;
+/// How much of a neighbour may be reached below; its far side may be curved.
+constexpr double kShareOfRoom = 0.625;
 
 struct GridPoint {
   std::uint32_t x = 0, y = 0;
@@ -54,6 +56,20 @@ double parameters(double pixels, double speed, double most) {
   return pixels < most * speed ? pixels / speed : most;
 }
 
+/// The least of the distances, in pixels, at which the patch ends opposite of a side.
+double thickness(const Geometry& g, int side) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const Vector2d uv = on_side(side, t), far = on_side((side + 2) & 3, 1 - t);
+    const Vector2d along =
+        side & 1 ? g.derivative_v(uv.x(), uv.y()) : g.derivative_u(uv.x(), uv.y());
+    const Vector2d over = g.at(far.x(), far.y()) - g.at(uv.x(), uv.y());
+    const double area = std::abs(along.x() * over.y() - along.y() * over.x());
+    least = std::min(least, along.norm() > 0 ? area / along.norm() : 0);
+  }
+  return least;
+}
+
 /// How far, in parameters, a patch goes on beyond a side where it is hidden or cut off: not beyond
 /// the patch that lies there.
 double reach(const Layer& layer, const PaintGroups& groups, int quad, const Geometry& g, int side) {
@@ -63,7 +79,9 @@ double reach(const Layer& layer, const PaintGroups& groups, int quad, const Geom
     return parameters(groups.open_border ? kBeyondPage : kBeyondEdge, least, kWidestReach);
   }
   const Geometry beyond = placed_geometry(layer, QuadMesh::quad_of(twin));
-  const double room = speed_from_side(beyond, QuadMesh::corner_of(twin))[0];
+  const int from = QuadMesh::corner_of(twin);
+  const double room =
+      kShareOfRoom * std::min(speed_from_side(beyond, from)[0], thickness(beyond, from));
   return parameters(std::min(kBeyondEdge, room), most, kWidestReach);
 }
 
