@@ -66,6 +66,35 @@ TEST(PdfRidges, ColorsGoOnInThemAsTheyCome) {
   }
 }
 
+TEST(PdfRidges, WhatReachesBelowAThinPatchEndsThere) {
+  constexpr double kSize = 20, kTear = 10, kEnd = 10.5;
+  QuadMesh mesh = testing::lattice(2, 3, kSize, kSize);
+  for (Vector2d& p : mesh.vertices) {
+    if (p.y() > 1 && p.y() < 19) p.y() = p.y() < kSize / 2 ? kTear : kEnd;
+  }
+  PatchMesh patches = straight_patches(std::move(mesh));
+  testing::set_linear_colors(patches, Color(0.5f, 0.25f, 0.75f, 1));
+  for (int e = 0; e < patches.mesh.edge_count(); ++e) {
+    const int h = patches.mesh.halfedge(e);
+    const Vector2d a = patches.mesh.vertices[patches.mesh.origin(h)],
+                   b = patches.mesh.vertices[patches.mesh.tip(h)];
+    if (a.y() == kTear && b.y() == kTear) patches.mesh.edge_flags[e] |= kTearEdge;
+    // Fast at its ends, and yet no longer.
+    if (std::abs(b.y() - a.y()) == kEnd - kTear) {
+      for (Vector2d& tangent : patches.edge_tangents[e]) tangent *= 2.5;
+    }
+  }
+  const VectorImage image = testing::single_layer(std::move(patches), kSize, kSize);
+  int reaching = 0;
+  for (const ReadPatch& patch : Painted(image.layers[0], 2).read()) {
+    const Eigen::AlignedBox2d box = box_of(patch);
+    if (box.min().y() > kTear / 2) continue;
+    EXPECT_LE(box.max().y(), kEnd);
+    reaching += box.max().y() > kTear;
+  }
+  EXPECT_EQ(reaching, 2);
+}
+
 /// Straight pieces of the curves around a patch.
 std::vector<Vector2d> outline(const ReadPatch& patch) {
   constexpr int kPieces = 16;
