@@ -54,6 +54,12 @@ void declare_export_options(CLI::App& parser, ExportOptions& options) {
                   "pixels of the picture per inch of the page, for .pdf, .ps and .eps")
       ->check(number_from(1, 10000))
       ->capture_default_str();
+  parser
+      .add_option("--pdf-tolerance", options.pdf.tolerance,
+                  "colour error of .pdf, .ps and .eps in steps of 255, at the price of their size")
+      ->check(number_from(0.5, 64))
+      ->type_name("T")
+      ->capture_default_str();
   declare_gltf_options(parser, options.gltf);
   parser
       .add_option("--vtk-divisions", options.vtk.divisions,

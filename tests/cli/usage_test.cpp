@@ -101,6 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{"a.png", "-o", "b.pdf", "--dpi", "0"},
         std::vector<std::string>{"a.png", "-o", "b.pdf", "--dpi", "1e12"},
         std::vector<std::string>{"a.png", "-o", "b.pdf", "--dpi", "nan"},
+        std::vector<std::string>{"a.png", "-o", "b.pdf", "--pdf-tolerance", "0.4"},
         std::vector<std::string>{"a.png", "-o", "b.glb", "--gltf-relief", "nan"},
         std::vector<std::string>{"a.png", "-o", "b.svgz", "--svg-size-limit", "nan"},
         std::vector<std::string>{"a.png", "-o", "b.quad", "--max-error", "nan"},
