@@ -11,6 +11,32 @@
 
 #include "block_bound-inl.h"
 
+#ifndef QUADRILLE_BLOCK_COLORS_ONCE
+#define QUADRILLE_BLOCK_COLORS_ONCE
+
+namespace quadrille {
+
+/// The basis at every sample of a block of eight, row by row, and where its centre lies.
+struct SampleBasis {
+  alignas(64) float x[64], y[64], across[4][64], down[4][64];
+
+  constexpr SampleBasis() : x(), y(), across(), down() {
+    for (int n = 0; n < 64; ++n) {
+      x[n] = static_cast<float>(n % 8) + 0.5f;
+      y[n] = static_cast<float>(n / 8) + 0.5f;
+      for (int i = 0; i < 4; ++i) {
+        across[i][n] = kChebyshev<8>.t[i][n % 8];
+        down[i][n] = kChebyshev<8>.t[i][n / 8];
+      }
+    }
+  }
+};
+inline constexpr SampleBasis kBlockSamples;
+
+}  // namespace quadrille
+
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace quadrille {
 namespace HWY_NAMESPACE {
@@ -63,8 +89,8 @@ bool find_series_of(const PatchProgram& p, const float (&map)[6], bool opaque,
   const int lanes = static_cast<int>(hn::Lanes(d));
   alignas(64) float xs[16], ys[16];
   for (int i = 0; i < 16; ++i) {
-    xs[i] = block.x + kBasis<kSide>.node[i % 4];
-    ys[i] = block.y + kBasis<kSide>.node[i / 4];
+    xs[i] = block.x + kChebyshev<kSide>.node[i % 4];
+    ys[i] = block.y + kChebyshev<kSide>.node[i / 4];
   }
   for (int i = 0; i < 16; i += lanes) {
     const Normalized point = normalized(map, hn::Load(d, xs + i), hn::Load(d, ys + i));
@@ -96,11 +122,11 @@ bool find_series(const PatchProgram& p, const float (&map)[6], bool opaque, int 
 HWY_INLINE V interpolated(const float* series, int first) {
   const Floats d;
   V across[4], sum = hn::Zero(d);
-  for (int i = 0; i < 4; ++i) across[i] = hn::Load(d, kSamples.across[i] + first);
+  for (int i = 0; i < 4; ++i) across[i] = hn::Load(d, kBlockSamples.across[i] + first);
   for (int j = 0; j < 4; ++j) {
     V row = hn::Zero(d);
     for (int i = 0; i < 4; ++i) row = row + number(series[4 * j + i]) * across[i];
-    sum = sum + row * hn::Load(d, kSamples.down[j] + first);
+    sum = sum + row * hn::Load(d, kBlockSamples.down[j] + first);
   }
   return sum;
 }
@@ -115,8 +141,8 @@ bool matches(const PatchProgram& p, const float (&map)[6], bool opaque, const Co
   for (int first = 0; first < 64; first += kTogether * lanes) {
     V x[kTogether], y[kTogether];
     for (int k = 0; k < kTogether; ++k) {
-      const V from_left = hn::Load(d, kSamples.x + first + k * lanes);
-      const V from_top = hn::Load(d, kSamples.y + first + k * lanes);
+      const V from_left = hn::Load(d, kBlockSamples.x + first + k * lanes);
+      const V from_top = hn::Load(d, kBlockSamples.y + first + k * lanes);
       const Normalized at =
           normalized(map, number(block.x) + from_left, number(block.y) + from_top);
       x[k] = at.x, y[k] = at.y;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 
+#include "bit_range.h"
 #include "chebyshev_basis.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -26,7 +27,7 @@ struct RowPairBasis {
   constexpr RowPairBasis() : t() {
     for (int y = 0; y < 4; ++y) {
       for (int i = 0; i < 4; ++i) {
-        for (int x = 0; x < 8; ++x) t[y / 2][i][8 * (y % 2) + x] = kBasis<8>.t[i][y];
+        for (int x = 0; x < 8; ++x) t[y / 2][i][8 * (y % 2) + x] = kChebyshev<8>.t[i][y];
       }
     }
   }
@@ -180,7 +181,7 @@ HWY_INLINE void paint_pairs(const float* series, bool clamped, const PaintedBloc
   using V = hn::Vec<decltype(d)>;
   V t[4], across[opaque ? 3 : 4][4];
   for (int i = 1; i < 4; ++i) {
-    const auto row = hn::Load(half, kBasis<8>.t[i]);
+    const auto row = hn::Load(half, kChebyshev<8>.t[i]);
     t[i] = hn::Combine(d, row, row);
   }
   series_down<opaque>(d, series, t, across);
@@ -205,7 +206,7 @@ HWY_INLINE void paint_rows(const float* series, bool clamped, const PaintedBlock
   using V = hn::Vec<decltype(d)>;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const std::uint32_t all = (1u << lanes) - 1;
-  const auto& basis = kBasis<kSide>.t;
+  const auto& basis = kChebyshev<kSide>.t;
   for (int x = 0; x < kSide; x += lanes) {
     V t[4], across[opaque ? 3 : 4][4];
     for (int i = 1; i < 4; ++i) t[i] = hn::Load(d, basis[i] + x);
@@ -245,8 +246,7 @@ HWY_INLINE bool clip(const BlockPlan& plan, const BlockPlan::Block& b, const Sam
   const std::uint32_t* const rows = b.full ? kFullRows.data() : plan.rows.data() + b.coverage;
   painted.rows = rows;
   if (whole) return true;
-  const auto before = [](int x) { return static_cast<std::uint32_t>((std::uint64_t{1} << x) - 1); };
-  const std::uint32_t columns = before(end) & ~before(begin);
+  const std::uint32_t columns = bit_range(begin, end);
   for (int y = 0; y < b.side; ++y) {
     painted.clipped[y] = y < first || y >= last ? 0 : rows[y] & columns;
   }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "bit_range.h"
 #include "patch_shader.h"
 
 namespace quadrille {
@@ -163,10 +164,7 @@ void BlockPlanner::find_rows(const Corner& corner, int side) {
   std::fill_n(rows_, side, 0u);
   sample_count_ = 0;
   for (const SampleSpan& s : inside_) {
-    const auto before = [&](int x) {
-      return static_cast<std::uint32_t>((std::uint64_t{1} << (x - corner.x)) - 1);
-    };
-    rows_[s.y - corner.y] |= before(s.x_end) & ~before(s.x_begin);
+    rows_[s.y - corner.y] |= bit_range(s.x_begin - corner.x, s.x_end - corner.x);
     sample_count_ += s.x_end - s.x_begin;
   }
 }

@@ -24,24 +24,7 @@ struct ChebyshevBasis {
   }
 };
 template <int kSide>
-inline constexpr ChebyshevBasis<kSide> kBasis;
-
-/// The same for every sample of a block of eight, row by row, and where its centre lies.
-struct SampleBasis {
-  alignas(64) float x[64], y[64], across[4][64], down[4][64];
-
-  constexpr SampleBasis() : x(), y(), across(), down() {
-    for (int n = 0; n < 64; ++n) {
-      x[n] = static_cast<float>(n % 8) + 0.5f;
-      y[n] = static_cast<float>(n / 8) + 0.5f;
-      for (int i = 0; i < 4; ++i) {
-        across[i][n] = kBasis<8>.t[i][n % 8];
-        down[i][n] = kBasis<8>.t[i][n / 8];
-      }
-    }
-  }
-};
-inline constexpr SampleBasis kSamples;
+inline constexpr ChebyshevBasis<kSide> kChebyshev;
 
 /// From 4 x 4 values at the nodes the coefficients of their series, [4 j + i] that of T_i across
 /// and T_j down, in their place.

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "bit_range.h"
+
 namespace quadrille {
 namespace {
 
@@ -24,11 +26,6 @@ BitSums bit_sums(unsigned bits) {
     bits &= ~0u << end;
   }
   return sums;
-}
-
-/// Bits begin ... end - 1.
-std::uint16_t bit_range(int begin, int end) {
-  return static_cast<std::uint16_t>(((1u << end) - 1) & ~((1u << begin) - 1));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ float on_side(float samples) {
 
 template <int kSide>
 void expect_exact() {
-  const ChebyshevBasis<kSide>& basis = kBasis<kSide>;
+  const ChebyshevBasis<kSide>& basis = kChebyshev<kSide>;
   float series[16];
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) {
@@ -47,7 +47,7 @@ TEST(ChebyshevBasis, SeriesThroughTheNodesOfABicubicIsThatBicubic) {
 template <int kSide>
 void expect_even_or_odd() {
   for (int i = 0; i < 4; ++i) {
-    const auto& t = kBasis<kSide>.t[i];
+    const auto& t = kChebyshev<kSide>.t[i];
     for (int x = 0; x < kSide; ++x) {
       EXPECT_EQ(t[kSide - 1 - x], (i % 2 ? -1 : 1) * t[x]) << kSide << ": " << i << ", " << x;
     }
