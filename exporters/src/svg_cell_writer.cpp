@@ -37,8 +37,8 @@ std::string attributes_of(const GradientVector& v) {
 std::string stops_of(const LinearGradient& g) {
   std::string text;
   for (int k = 0; k < g.stop_count; ++k) {
-    text += "<stop offset=\"" + to_short_text(double(k) / (g.stop_count - 1), 2) +
-            "\" stop-color=\"" + hex(g.stops[k]) + "\"/>";
+    text += "<stop offset=\"" + to_short_text(g.stops[k].offset, 2) + "\" stop-color=\"" +
+            hex(g.stops[k].color) + "\"/>";
   }
   return text;
 }
@@ -47,7 +47,7 @@ std::string stops_of(const LinearGradient& g) {
 
 void SvgCellWriter::add(const std::vector<SvgOutline>& outlines, const CellFill& fill) {
   if (fill.base.stop_count == 1) {
-    const std::string color = hex(fill.base.stops[0]);
+    const std::string color = hex(fill.base.stops[0].color);
     if (color != flat_color_ || flat_path_.text().size() > kLongestFlatPath) finish();
     flat_color_ = color;
     for (const SvgOutline& outline : outlines) flat_path_.append(outline);

@@ -19,7 +19,7 @@ constexpr double kPathBytes = 8, kPathDataBytes = 0.55;
 /// And the same path again right after it.
 constexpr double kRepeatedPathBytes = 10;
 /// An error of alpha counts as much as one of each of several channels: it shows what lies below.
-constexpr double kAlphaCounts = 4;
+constexpr double kAlphaCounts = 6;
 /// The least that another cell takes.
 constexpr double kLeastCellBytes = 30;
 
@@ -31,7 +31,9 @@ class PatchDivider {
         color_(layer.color(quad)),
         paint_(paint),
         price_(price_of(detail, paint)),
-        units_(detail.units_per_pixel) {}
+        units_(detail.units_per_pixel) {
+    for (int k = 0; k < 4; ++k) is_cut_[k] = layer.is_cut(4 * quad + k);
+  }
 
   std::vector<SvgCell> run() {
     const ParameterBox whole;
@@ -113,6 +115,8 @@ class PatchDivider {
     const double middle = 0.5 * (n - 1);
     CellSamples samples;
     samples.count = n * n;
+    samples.is_cut = (is_cut_[0] && box.v0 == 0) || (is_cut_[1] && box.u1 == 1) ||
+                     (is_cut_[2] && box.v1 == 1) || (is_cut_[3] && box.u0 == 0);
     const double share = (box.u1 - box.u0) * (box.v1 - box.v0) / samples.count;
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
@@ -161,6 +165,7 @@ class PatchDivider {
   CellPaint paint_;
   double price_;
   int units_;
+  std::array<bool, 4> is_cut_;  ///< per side of the patch
 };
 
 }  // namespace

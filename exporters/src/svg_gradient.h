@@ -14,14 +14,18 @@ struct GradientVector {
   bool is_common = true;  ///< of the few directions and ranges that serve most cells
 };
 
-/// A linear gradient with evenly spaced stops.
+/// A linear gradient whose stops rise from 0 to 1.
 struct LinearGradient {
   static constexpr int kMaxStops = 8;
   using Rgb = std::array<std::uint8_t, 3>;
+  struct Stop {
+    double offset = 0;
+    Rgb color{};
+  };
 
   GradientVector vector;
   int stop_count = 1;  ///< 1 means one flat colour
-  std::array<Rgb, kMaxStops> stops{};
+  std::array<Stop, kMaxStops> stops{};
 };
 
 /// The nearest 8-bit colour to one of 0 to 255.
@@ -48,19 +52,22 @@ struct CellSamples {
   /// The structure tensor: weighted sum of g g' over the samples and channels, g the gradient of
   /// the colour in the picture.
   Eigen::Matrix2d slopes = Eigen::Matrix2d::Zero();
+  /// Whether the edge of the paint shows along some side. A second gradient would cover more of its
+  /// half-covered pixels than the first.
+  bool is_cut = false;
 };
 
 struct CellFit {
   CellFill fill;
   double squared_error = 0;  ///< over the cell's square pixels, mean of the channels, 8-bit steps
-  double bytes = 0;          ///< about what the fill takes in a compressed file
+  double bytes = 0;          ///< about what the fill takes in a compressed file, and in time
   double cost(double price) const { return squared_error + price * bytes; }
 };
 
 /// About the fill with the lowest cost where a byte of a compressed file costs `price`. The bounds
 /// are those of what will be painted; `again` is what painting the outline once more takes, in
-/// bytes. Stop colours minimise the squared error. A fill that costs more than `limit` need not be
-/// the best.
+/// bytes; where the cell is cut that is not done. Stop colours minimise the squared error. A fill
+/// that costs more than `limit` need not be the best.
 CellFit fit_cell(const CellSamples& samples, const Eigen::AlignedBox2d& bounds, double price,
                  double again, double limit = std::numeric_limits<double>::max());
 

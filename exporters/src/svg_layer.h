@@ -37,6 +37,11 @@ class SvgLayer {
   int part(int quad) const { return parts_.group[quad]; }
   /// True when a clip ends the part of half-edge h there; its patches go on beyond.
   bool is_clipped(int h) const { return across(mesh(), parts_, h) == Across::outside; }
+  /// True when the paint of half-edge h's patch ends there for all to see: at a clip, or at a tear
+  /// over what is painted earlier.
+  bool is_cut(int h) const {
+    return is_clipped(h) || (mesh().is_tear(mesh().edge(h)) && !is_painted_later(h));
+  }
   /// What clips a part; empty when nothing does.
   std::vector<EdgeLoop> clip(int part) const { return group_region(mesh(), parts_, part); }
   PatchOpacity opacity(int quad) const { return opacity_[quad]; }

@@ -42,6 +42,7 @@ CellSamples joined(const CellSamples& a, const CellSamples& b) {
   take(a, from_a);
   take(b, n - from_a);
   both.slopes = a.slopes + b.slopes;
+  both.is_cut = a.is_cut || b.is_cut;
   return both;
 }
 

@@ -16,8 +16,11 @@ constexpr double kSmoothing = 1e-4, kPull = 1e-7;
 
 /// Normal equations of stop colours, one row per stop: of the matrix the lower triangle.
 template <int Size>
-struct StopEquations {
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Size, Size> matrix;
+class StopEquations {
+ public:
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Size, Size>;
+
+  Matrix matrix;
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, Size, 3> right;
 
   explicit StopEquations(int count) : matrix(count, count), right(count, 3) { matrix.setZero(); }
@@ -31,6 +34,20 @@ struct StopEquations {
     }
   }
 
+  /// The product of the stops of two axes, the second's after the first's.
+  void add_products(const WeightedColors& colors, const RidgeSystem& a, const RidgeSystem& b) {
+    for (int i = 0; i < colors.count; ++i) {
+      const auto [j, f] = a.place[i];
+      const auto [k, g] = b.place[i];
+      const double w = colors.sample[i][3];
+      auto products = matrix.template block<2, 2>(a.stops + k, j);
+      products(0, 0) += w * (1 - f) * (1 - g);
+      products(0, 1) += w * f * (1 - g);
+      products(1, 0) += w * (1 - f) * g;
+      products(1, 1) += w * f * g;
+    }
+  }
+
   RidgeSolution<Size> solve() {
     RidgeSolution<Size> solution;
     Eigen::LLT<Eigen::Ref<decltype(matrix)>> factors(matrix);
@@ -40,7 +57,75 @@ struct StopEquations {
     solution.explained = right.cwiseProduct(solution.stops).sum();
     return solution;
   }
+
+  /// See thinned_ridge(); the second axis, if there is one, starts at stop number `second`.
+  RidgeSolution<Size> solve_thinned(double worth, int second) {
+    const int n = static_cast<int>(right.rows());
+    Matrix inverse = Matrix::Identity(n, n);
+    Eigen::LLT<Matrix>(matrix).solveInPlace(inverse);
+    RidgeSolution<Size> solution{.stops = inverse * right};
+    solution.explained = right.cwiseProduct(solution.stops).sum();
+    while (leave_out_least(solution, inverse, worth, second)) {
+    }
+    return solution;
+  }
+
+ private:
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Size, 1>;
+
+  /// False when no stop is worth leaving out. `inverse` is that of the matrix under the conditions
+  /// that are met already.
+  static bool leave_out_least(RidgeSolution<Size>& solution, Matrix& inverse, double worth,
+                              int second) {
+    const int n = static_cast<int>(inverse.rows());
+    int least = -1;
+    double rise = worth, least_scale = 0;
+    Column least_column(n);
+    Eigen::RowVector3d least_bend;
+    for (int k = 1; k + 1 < n; ++k) {
+      if (k == second - 1 || k == second || solution.left_out[k]) continue;
+      int before = k - 1, after = k + 1;
+      while (solution.left_out[before]) --before;
+      while (solution.left_out[after]) ++after;
+      const double share = double(k - before) / (after - before);
+      // The condition is c'x = 0: stop k lies on the line between its neighbours. The minimum under
+      // one more condition lies (c'x)^2 / (c' A^-1 c) higher.
+      const auto bend_of = [&](const auto& rows) {
+        return (rows.row(k) - (1 - share) * rows.row(before) - share * rows.row(after)).eval();
+      };
+      const Column column = bend_of(inverse).transpose();
+      const double scale = bend_of(column)[0];
+      const Eigen::RowVector3d bend = bend_of(solution.stops);
+      if (!(bend.squaredNorm() < rise * scale)) continue;
+      rise = bend.squaredNorm() / scale;
+      least = k;
+      least_column = column;
+      least_scale = scale;
+      least_bend = bend;
+    }
+    if (least < 0) return false;
+    solution.stops -= least_column * (least_bend / least_scale);
+    inverse -= least_column * least_column.transpose() / least_scale;
+    solution.explained -= rise;
+    solution.left_out[least] = true;
+    return true;
+  }
 };
+
+StopEquations<RidgeSystem::kSize> equations_of(const RidgeSystem& system) {
+  StopEquations<RidgeSystem::kSize> equations(system.stops);
+  equations.add(system, 0);
+  return equations;
+}
+
+StopEquations<2 * RidgeSystem::kSize> equations_of(const WeightedColors& colors,
+                                                   const RidgeSystem& a, const RidgeSystem& b) {
+  StopEquations<2 * RidgeSystem::kSize> equations(a.stops + b.stops);
+  equations.add(a, 0);
+  equations.add(b, a.stops);
+  equations.add_products(colors, a, b);
+  return equations;
+}
 
 using UnitPlaces = std::array<double, CellSamples::kMost>;
 
@@ -168,27 +253,22 @@ RidgeSystem::RidgeSystem(const WeightedColors& colors, const RidgeAxis& axis, in
 }
 
 RidgeSolution<RidgeSystem::kSize> solve_ridge(const RidgeSystem& system) {
-  StopEquations<RidgeSystem::kSize> equations(system.stops);
-  equations.add(system, 0);
-  return equations.solve();
+  return equations_of(system).solve();
 }
 
 RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const WeightedColors& colors,
                                                    const RidgeSystem& a, const RidgeSystem& b) {
-  StopEquations<2 * RidgeSystem::kSize> equations(a.stops + b.stops);
-  equations.add(a, 0);
-  equations.add(b, a.stops);
-  for (int i = 0; i < colors.count; ++i) {
-    const auto [j, f] = a.place[i];
-    const auto [k, g] = b.place[i];
-    const double w = colors.sample[i][3];
-    auto products = equations.matrix.block<2, 2>(a.stops + k, j);
-    products(0, 0) += w * (1 - f) * (1 - g);
-    products(0, 1) += w * f * (1 - g);
-    products(1, 0) += w * (1 - f) * g;
-    products(1, 1) += w * f * g;
-  }
-  return equations.solve();
+  return equations_of(colors, a, b).solve();
+}
+
+RidgeSolution<RidgeSystem::kSize> thinned_ridge(const RidgeSystem& system, double worth) {
+  return equations_of(system).solve_thinned(worth, system.stops);
+}
+
+RidgeSolution<2 * RidgeSystem::kSize> thinned_ridges(const WeightedColors& colors,
+                                                     const RidgeSystem& a, const RidgeSystem& b,
+                                                     double worth) {
+  return equations_of(colors, a, b).solve_thinned(worth, a.stops);
 }
 
 }  // namespace quadrille

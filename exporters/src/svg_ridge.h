@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <bitset>
 
 #include "svg_gradient.h"
 
@@ -62,6 +63,7 @@ struct RidgeSystem {
 template <int Size>
 struct RidgeSolution {
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, Size, 3> stops;  ///< one row per stop
+  std::bitset<Size> left_out;  ///< stops that lie on the line between their neighbours
   double explained = 0;  ///< by how much the weighted squares of the colours fall, all channels
 };
 
@@ -70,5 +72,13 @@ RidgeSolution<RidgeSystem::kSize> solve_ridge(const RidgeSystem& system);
 /// The stops of the first summand, then those of the second.
 RidgeSolution<2 * RidgeSystem::kSize> solve_ridges(const WeightedColors& colors,
                                                    const RidgeSystem& a, const RidgeSystem& b);
+
+/// Solutions in which stops are left out, one after the other, the least important first, as long
+/// as `explained` falls by less than `worth` with it. The others, and the stops at the ends, are at
+/// the best that remains.
+RidgeSolution<RidgeSystem::kSize> thinned_ridge(const RidgeSystem& system, double worth);
+RidgeSolution<2 * RidgeSystem::kSize> thinned_ridges(const WeightedColors& colors,
+                                                     const RidgeSystem& a, const RidgeSystem& b,
+                                                     double worth);
 
 }  // namespace quadrille

@@ -72,7 +72,7 @@ class SvgWriter {
   void add_underlay(const UnderlayGroup& group) {
     if (group.outlines.empty()) return;
     CellFill fill;
-    fill.base.stops[0] = rounded_color(group.color);
+    fill.base.stops[0].color = rounded_color(group.color);
     cells_.add(group.outlines, fill);
   }
 
