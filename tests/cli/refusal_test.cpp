@@ -76,7 +76,8 @@ TEST(Refusal, PatchesAreNotFittedAgain) {
   const std::string document = (folder / "a.quad").string();
   ASSERT_EQ(quadrille({sample("formats/one_pixel.png"), "-o", document}).exit_code, 0);
   expect_refused(quadrille({document, "-o", (folder / "b.svg").string()}), "a.quad");
-  expect_refused(quadrille({"inspect", document, "-o", (folder / "b.vtm").string()}), "a.quad");
+  const std::string drawing = (folder / "b.png").string();
+  expect_refused(quadrille({"inspect", document, "--stage", "quads", "-o", drawing}), "a.quad");
   EXPECT_EQ(files_in(folder).size(), 1);
 }
 
