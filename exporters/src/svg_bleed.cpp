@@ -239,7 +239,7 @@ class Outliner {
     if (turn > 0 && !all_later_around(before, after)) return {};
     const double divisor = 1 - cosine * cosine;
     const Vector2d step = (a - cosine * b) / divisor * n + (b - cosine * a) / divisor * m;
-    if (crosses_tear(before, after, step)) return {};
+    if (crosses_tear(before, after, step) || ends_uncovered(after, step)) return {};
     return step;
   }
 
@@ -262,6 +262,15 @@ class Outliner {
         return true;
     }
     return false;
+  }
+
+  /// True when a step from the start of a side at a tear ends over what is painted earlier. The
+  /// patches there may be covered at the vertex itself but not as far as the step goes.
+  bool ends_uncovered(int s, const Vector2d& step) const {
+    if (!starts_at_tear(s)) return false;
+    const auto fan = fan_at_start(s);
+    return std::any_of(fan.begin(), fan.end(),
+                       [&](int h) { return leads_into(step, h) && !reach_.ends_covered(h, step); });
   }
 
   /// The fan around the vertex at which a side starts; empty when it starts elsewhere.

@@ -100,6 +100,23 @@ bool BleedReach::is_covered(int own, int quad, const Vector2d& uv) const {
                   : group_.holds(cell) || group_.is_later(cell);
 }
 
+bool BleedReach::ends_covered(int h, const Vector2d& step) const {
+  constexpr int kNewtonSteps = 4;
+  const int quad = QuadMesh::quad_of(h), own = mesh_.quad(group_.cells.front());
+  const Geometry& g = geometry(quad);
+  Vector2d uv = on_side(QuadMesh::corner_of(h), 0);
+  const Vector2d target = point_at(g, uv) + step;
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const Vector2d du = g.derivative_u(uv.x(), uv.y()), dv = g.derivative_v(uv.x(), uv.y());
+    const double determinant = cross(du, dv);
+    if (determinant == 0) break;
+    const Vector2d miss = target - point_at(g, uv);
+    uv += Vector2d(cross(miss, dv), cross(du, miss)) / determinant;
+    uv = uv.cwiseMax(0).cwiseMin(1);
+  }
+  return is_covered(own, quad, uv);
+}
+
 bool BleedReach::crosses_tear(int quad, const Vector2d& from, const Vector2d& step) const {
   constexpr int kLines = 4;  // of a side
   const QuadMesh& quads = layer_.mesh();

@@ -21,6 +21,10 @@ class BleedReach {
   /// bleed is halved until it ends in a cell that is painted later.
   Eigen::Vector2d step(int side, const Eigen::Vector2d& uv, double bleed, bool is_clipped) const;
 
+  /// True when a step from the origin of half-edge h, into its quad, ends over the group or over
+  /// what is painted later.
+  bool ends_covered(int h, const Eigen::Vector2d& step) const;
+
   /// True when a step from a point on the border of a patch or in it crosses a tear around it.
   bool crosses_tear(int quad, const Eigen::Vector2d& from, const Eigen::Vector2d& step) const;
 

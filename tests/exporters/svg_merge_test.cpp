@@ -118,6 +118,22 @@ TEST(SvgMerge, AGroupBleedsUnderLaterCellsAndOverNoOther) {
   EXPECT_NEAR(area(outlines[0]), (kWidth / 3 + 1) * kHeight, 1e-9);
 }
 
+TEST(SvgMerge, BleedsMeetAtTearsOverLaterCellsOnly) {
+  const VectorImage image = testing::single_layer(straight_lattice(2, 2, true), kWidth, kHeight);
+  const SvgLayer layer(image.layers[0], 0.01, kWidth, kHeight);
+  // Across the corner is a cell thinner than the bleed, and another beyond it.
+  const CellMesh mesh(
+      layer, {{0, {}}, {1, {}}, {2, {}}, {3, {0, 0, 1.0 / 64, 1}}, {3, {1.0 / 64, 0, 1, 1}}});
+  for (const bool last_is_later : {false, true}) {
+    const CellGroup first{
+        {0}, [](int c) { return c == 0; }, [&](int c) { return c < 4 || last_is_later; }};
+    const std::vector<SvgOutline> outlines = group_outlines(mesh, first, 1);
+    ASSERT_EQ(outlines.size(), 1u);
+    const double w = kWidth / 2, h = kHeight / 2, corner = last_is_later ? 1 : 0;
+    EXPECT_NEAR(area(outlines[0]), w * h + w + h + corner, 1e-9);
+  }
+}
+
 TEST(SvgMerge, HolesThatLaterCellsFillAreLeftOut) {
   const VectorImage image = testing::single_layer(straight_lattice(3, 3), kWidth, kHeight);
   const SvgLayer layer(image.layers[0], 0.01, kWidth, kHeight);
