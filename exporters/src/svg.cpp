@@ -28,7 +28,7 @@ struct LevelDetail {
 LevelDetail detail_of(SvgLevel level) {
   switch (level) {
     case SvgLevel::compact:
-      return {4.5, 2};
+      return {3.5, 2};
     case SvgLevel::faithful:
       return {0.42, 8};
     case SvgLevel::balanced:
@@ -36,7 +36,7 @@ LevelDetail detail_of(SvgLevel level) {
     case SvgLevel::inkscape:
       break;
   }
-  return {1.7, 2};
+  return {1.25, 2};
 }
 
 class SvgFile {

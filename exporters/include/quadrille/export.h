@@ -31,8 +31,8 @@ struct RasterFileOptions {
 /// where bands of gradients would show, t is down to half of that, in busy ones up to a twelfth
 /// more.
 enum class SvgLevel {
-  compact,   ///< t = 4.5
-  balanced,  ///< t = 1.7
+  compact,   ///< t = 3.5
+  balanced,  ///< t = 1.25
   faithful,  ///< t = 0.42, and coordinates to 1/8 of a pixel instead of 1/2 (ten times finer along
              ///< tears and the outline, and at every level where the picture is steep)
   hybrid,    ///< one pixel image per side of the tears behind exact outlines: not independent of
