@@ -50,16 +50,20 @@ class SvgWriter {
   /// Overlapping translucent cells would add up. So their alpha is painted in opaque grays, seams
   /// under bleed as always, and is then the mask of their colours.
   void write_masked(const SvgLayer& layer, const std::vector<int>& quads, const std::string& id) {
-    const double units = detail_.units_per_pixel;
-    out_ << "<mask id=\"" << id << "-alpha\" maskUnits=\"userSpaceOnUse\" x=\"0\" y=\"0\" width=\""
-         << to_text(image_.width * units) << "\" height=\"" << to_text(image_.height * units)
-         << "\">\n";
+    open_mask(id + "-alpha");
     add_underlay(mask_underlay(layer, image_.width, image_.height));
     write_cells(layer, quads, CellPaint::alpha);
     out_ << "</mask>\n<g id=\"" << id << "-translucent\" mask=\"url(#" << id << "-alpha)\">\n";
     write_underlay(translucent_underlay(layer), id + "-translucent");
     write_cells(layer, quads, CellPaint::color);
     out_ << "</g>\n";
+  }
+
+  void open_mask(const std::string& id) {
+    const double units = detail_.units_per_pixel;
+    out_ << "<mask id=\"" << id << "\" maskUnits=\"userSpaceOnUse\" x=\"0\" y=\"0\" width=\""
+         << to_text(image_.width * units) << "\" height=\"" << to_text(image_.height * units)
+         << "\">\n";
   }
 
   void write_underlay(const std::vector<UnderlayGroup>& groups, const std::string& id) {
@@ -93,15 +97,18 @@ class SvgWriter {
     }
   }
 
+  /// A mask ends a part where tears and the outline do. Of a clip path most viewers cut every cell
+  /// on its own, and where several overlap in a pixel at its edge, their shares of it add up.
   void write_part(const SvgLayer& layer, const std::vector<int>& quads, const std::string& region) {
     const int part = layer.part(quads.front());
     const std::vector<EdgeLoop> clip = layer.clip(part);
     if (!clip.empty()) {
-      const std::string id = region + "-clip-" + to_text(static_cast<long long>(part + 1));
+      const std::string id = region + "-mask-" + to_text(static_cast<long long>(part + 1));
       SvgPathData path(detail_.units_per_pixel);
       for (const EdgeLoop& loop : clip) path.append(clip_outline(layer.layer(), loop));
-      out_ << "<clipPath id=\"" << id << "\"><path d=\"" << path.text()
-           << "\"/></clipPath>\n<g clip-path=\"url(#" << id << ")\">\n";
+      open_mask(id);
+      out_ << "<path fill=\"#ffffff\" d=\"" << path.text() << "\"/></mask>\n<g mask=\"url(#" << id
+           << ")\">\n";
     }
     write_cells(layer, quads, CellPaint::color);
     if (!clip.empty()) out_ << "</g>\n";

@@ -260,7 +260,7 @@ TEST(Svg, PixelsThatAnOutlineHalvesAreCoveredOnce) {
   const VectorImage image = halves(Color(0.9f, 0.8f, 0.2f, 1), Color::Zero());
   EXPECT_GT(difference(image, 1, "half").psnr, 44);
   EXPECT_GT(difference(image, 4, "half").psnr, 44);
-  EXPECT_THAT(bytes_of(output("half.svg")), HasSubstr("<clipPath id=\"region-1-clip-1\">"));
+  EXPECT_THAT(bytes_of(output("half.svg")), HasSubstr("<mask id=\"region-1-mask-1\" "));
 }
 
 TEST(Svg, HybridImagesAreSharpAtTearsAndOutlines) {
