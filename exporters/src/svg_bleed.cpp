@@ -21,8 +21,9 @@ constexpr double kClippedBleed = 1.5;
 /// between two bleeds from which they are about one, and below which they make a spike; and the
 /// least ratio of their lengths with which they meet.
 constexpr double kLeastSlope = 0.5, kStraight = 0.95, kSpike = -0.3, kLeastRatio = 0.7;
-/// The error that rounded seams may leave, in 8-bit steps, and bleeds as a share of their length.
-constexpr double kSlopeError = 8, kBleedShare = 0.25;
+/// The error that rounded seams may leave, in 8-bit steps, and bleeds as a share of their length;
+/// less in masks, where a bleed that crosses a tear lets the hidden colours beyond show.
+constexpr double kSlopeError = 8, kBleedShare = 0.25, kMaskBleedShare = 0.15;
 /// And the most that corners at tears may be moved, in pixels: something of any colour lies below.
 constexpr double kTornCorner = 0.04;
 /// How far before its ends a bleed ends beside what has none, where masks are painted, in pixels.
@@ -190,8 +191,9 @@ class Outliner {
     return mesh_.slope(s, static_cast<int>(mesh_.points(s).size()) - 1);
   }
   /// Where there is little room for it, a bleed must not be rounded much.
-  static void add_bleed(OutlineSimplifier& to, const Vector2d& point, const Vector2d& step) {
-    to.add(point + step, kBleedShare * step.norm());
+  void add_bleed(OutlineSimplifier& to, const Vector2d& point, const Vector2d& step) const {
+    const double share = mesh_.paint() == CellPaint::alpha ? kMaskBleedShare : kBleedShare;
+    to.add(point + step, share * step.norm());
   }
 
   /// The bleed of a side at one of its ends.
