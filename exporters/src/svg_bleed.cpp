@@ -341,7 +341,7 @@ class Outliner {
   bool is_hidden_in(int own, int h) const {
     const int cell = mesh_.cell_at(h), quad = QuadMesh::quad_of(h);
     if (cell >= 0) return group_.holds(cell) || group_.is_later(cell);
-    return layer_.opacity(quad) == PatchOpacity::transparent || layer_.is_painted_later(own, quad);
+    return layer_.opacity(quad) == PatchOpacity::transparent || mesh_.is_hidden_in(own, quad);
   }
 
   Vector2d start(int s) const { return mesh_.points(s).front(); }

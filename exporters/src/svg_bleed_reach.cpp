@@ -96,8 +96,7 @@ std::pair<int, Vector2d> BleedReach::across_border(const CellMesh::Side& side, c
 /// True when the group, or what is painted later, is at these parameters.
 bool BleedReach::is_covered(int own, int quad, const Vector2d& uv) const {
   const int cell = mesh_.cell_with(quad, uv);
-  return cell < 0 ? layer_.is_painted_later(own, quad)
-                  : group_.holds(cell) || group_.is_later(cell);
+  return cell < 0 ? mesh_.is_hidden_in(own, quad) : group_.holds(cell) || group_.is_later(cell);
 }
 
 bool BleedReach::ends_covered(int h, const Vector2d& step) const {

@@ -213,12 +213,18 @@ bool CellMesh::is_outline(int h) const {
   return twin < 0 || layer_.opacity(QuadMesh::quad_of(twin)) == PatchOpacity::transparent;
 }
 
+bool CellMesh::is_hidden_in(int quad, int other) const {
+  const bool is_over = paint_ == CellPaint::color && layer_.is_outshone(other, quad);
+  return layer_.is_painted_later(quad, other) || is_over;
+}
+
 CellMesh::Beyond CellMesh::beyond(int quad, int k) const {
   const int h = 4 * quad + k;
   const bool is_clipped =
       layer_.is_opaque(quad) ? layer_.is_clipped(h) : paint_ == CellPaint::color && is_outline(h);
   if (is_clipped) return Beyond::clip;
-  if (layer_.is_painted_later(h)) return Beyond::later;
+  const int twin = layer_.mesh().twin(h);
+  if (twin >= 0 && is_hidden_in(quad, QuadMesh::quad_of(twin))) return Beyond::later;
   const bool is_smooth = !layer_.is_border(h) && !layer_.mesh().is_tear(layer_.mesh().edge(h));
   return is_smooth ? Beyond::seam : Beyond::nothing;
 }

@@ -24,7 +24,7 @@ class CellMesh {
   /// What lies across a side that has no twin.
   enum class Beyond {
     seam,    ///< smoothly, what is painted earlier: the side shows
-    later,   ///< what is painted later and hides whatever reaches there
+    later,   ///< what is painted later, hiding whatever reaches there, or whatever may reach over
     clip,    ///< whatever reaches there is cut off
     nothing  ///< the paint must end exactly here
   };
@@ -74,6 +74,8 @@ class CellMesh {
     const auto found = patches_.find(quad);
     return found == patches_.end() ? nullptr : &found->second.geometry;
   }
+  /// True when whatever a patch that is painted reaches of another one does not show, or may.
+  bool is_hidden_in(int quad, int other) const;
   /// The cell at the origin of half-edge h in its quad, or -1 when the quad is none of these.
   int cell_at(int h) const;
   /// A cell of a patch that holds these parameters, or -1 when the quad is none of these.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "paintable_patch.h"
@@ -15,6 +16,8 @@ namespace {
 
 /// With more regions than this all count as one: each takes a pass over the mesh.
 constexpr int kMostRegions = 64;
+/// A translucent patch is faint when its alpha is below this at its corners.
+constexpr float kFaint = 0.25f;
 /// The most patches of a tile, all of which are worked on together: bounds the memory.
 constexpr int kTileSize = 512;
 
@@ -27,6 +30,11 @@ SvgLayer::SvgLayer(const Layer& layer, double tolerance, double width, double he
       region_(smooth_regions(layer.patches.mesh)) {
   const bool too_many = std::ranges::any_of(region_, [](int r) { return r >= kMostRegions; });
   if (too_many) std::ranges::fill(region_, 0);
+  faint_.assign(mesh().quad_count(), 0);
+  for (const int q : patches_with(opacity_, PatchOpacity::translucent)) {
+    const auto corners = color(q).value;
+    faint_[q] = std::ranges::all_of(corners, [](const Color& c) { return c[3] < kFaint; });
+  }
   number_parts(width, height);
   number_tiles();
 }
@@ -49,18 +57,18 @@ void SvgLayer::number_parts(double width, double height) {
 
 void SvgLayer::number_tiles() {
   tile_.assign(mesh().quad_count(), 0);
-  int count = 0;
   std::vector<Eigen::Vector2d> corners(mesh().quad_count());
   for (int q = 0; q < mesh().quad_count(); ++q) corners[q] = mesh().vertices[mesh().quads()[q][0]];
-  for (const PatchOpacity opacity : {PatchOpacity::translucent, PatchOpacity::opaque}) {
-    const std::vector<int>& number = part_or_region(opacity);
-    std::map<int, std::vector<int>> sets;
-    for (const int q : patches_with(opacity_, opacity)) sets[number[q]].push_back(q);
-    for (auto& [set, quads] : sets) {
-      for (const auto& tile : divide_into_tiles(std::move(quads), corners, kTileSize)) {
-        for (const int q : tile) tile_[q] = count;
-        ++count;
-      }
+  std::map<std::tuple<bool, bool, int>, std::vector<int>> sets;
+  for (int q = 0; q < mesh().quad_count(); ++q) {
+    if (opacity_[q] == PatchOpacity::transparent) continue;
+    sets[{is_opaque(q), !faint_[q], is_opaque(q) ? part(q) : region_[q]}].push_back(q);
+  }
+  int count = 0;
+  for (auto& [key, quads] : sets) {
+    for (const auto& tile : divide_into_tiles(std::move(quads), corners, kTileSize)) {
+      for (const int q : tile) tile_[q] = count;
+      ++count;
     }
   }
 }

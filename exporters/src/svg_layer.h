@@ -9,10 +9,11 @@
 namespace quadrille {
 
 /// A layer in the picture's coordinates, with the order in which its patches are painted: the
-/// translucent ones first, so that they can reach under the opaque ones, both region by region; the
-/// transparent ones, and those that is_paintable() refuses, never. The opaque
-/// ones of a region are painted part by part, so that the patches along the two sides of a tear are
-/// in different parts: those painted later are clipped there, as all are at the outline.
+/// translucent ones first, so that they can reach under the opaque ones, and the faint ones of them
+/// before the others, which can reach over them; all region by region; the transparent ones, and
+/// those that is_paintable() refuses, never. The opaque ones of a region are painted part by part,
+/// so that the patches along the two sides of a tear are in different parts: those painted later
+/// are clipped there, as all are at the outline.
 class SvgLayer {
  public:
   /// Alpha within `tolerance` (of 1) of 0 or 1 counts as such; the picture is the rectangle [0,
@@ -31,6 +32,9 @@ class SvgLayer {
   bool is_painted_later(int h) const;
   /// True when `other` is painted after `quad`.
   bool is_painted_later(int quad, int other) const;
+  /// True when the colours of a translucent patch count for little beside those of another, which
+  /// may then reach over them: few pixels at the tear between the two show a mixture.
+  bool is_outshone(int quad, int other) const { return faint_[quad] && !faint_[other]; }
   /// Number of the smooth region of a quad: quads that only tears separate are of different ones.
   int region(int quad) const { return region_[quad]; }
   /// Number of the part of an opaque quad; parts of a region follow each other.
@@ -55,13 +59,11 @@ class SvgLayer {
  private:
   void number_parts(double width, double height);
   void number_tiles();
-  const std::vector<int>& part_or_region(PatchOpacity opacity) const {
-    return opacity == PatchOpacity::opaque ? parts_.group : region_;
-  }
 
   const Layer& layer_;
   std::vector<char> paintable_;
   std::vector<PatchOpacity> opacity_;
+  std::vector<char> faint_;
   std::vector<int> region_;
   PaintGroups parts_;      ///< of the opaque quads
   std::vector<int> tile_;  ///< numbers rise with those of parts and regions

@@ -263,6 +263,16 @@ TEST(Svg, PixelsThatAnOutlineHalvesAreCoveredOnce) {
   EXPECT_THAT(bytes_of(output("half.svg")), HasSubstr("<mask id=\"region-1-mask-1\" "));
 }
 
+TEST(Svg, FaintColoursDoNotMixWithStrongOnesAtATear) {
+  for (const bool faint_first : {true, false}) {
+    const Color strong(0.85f, 0.75f, 0.2f, 0.9f), faint(0, 0.02f, 0.1f, 0.1f);
+    const VectorImage image = faint_first ? halves(faint, strong) : halves(strong, faint);
+    EXPECT_GT(difference(image, 1, "faint").psnr, 44) << faint_first;
+    // The strong colours hide a strip of the faint ones, wider than a pixel at this scale.
+    EXPECT_GT(difference(image, 4, "faint").psnr, 42) << faint_first;
+  }
+}
+
 TEST(Svg, HybridImagesAreSharpAtTearsAndOutlines) {
   for (const bool is_torn_picture : {true, false}) {
     const VectorImage image = halves(Color(0.9f, 0.8f, 0.2f, 1),
