@@ -65,6 +65,20 @@ TEST(EdgeProfile, FindsAStepOfAnySlopeInTwoSteps) {
   }
 }
 
+TEST(EdgeProfile, AStrokeBetweenTwoColoursHasTwoEdges) {
+  constexpr int kFrom = 12, kTo = 14;
+  Raster picture = box_filtered(24, 4, kDark, kBright, [](double x, double) { return x > kTo; });
+  const Eigen::Vector3d grey(0.5, 0.5, 0.5);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < kFrom; ++x)
+      Eigen::Map<Eigen::Vector3f>(picture.pixel(x, y)) = grey.cast<float>();
+  }
+  const EdgeProfile profile = edge_profile(PremultipliedColours(picture), {kFrom + 0.2, 2}, {1, 0});
+  EXPECT_NEAR(profile.offset, -0.2, kOffsetTolerance);
+  EXPECT_NEAR(profile.contrast, (kDark - grey).norm(), 0.01);
+  EXPECT_GT(profile.sharpness, 0.95);
+}
+
 TEST(EdgeProfile, ARampHasTheShareOfItsSlope) {
   const Raster picture =
       box_filtered(24, 4, kDark, kBright, [](double x, double) { return x / 24; });

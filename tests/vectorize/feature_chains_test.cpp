@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -52,6 +53,29 @@ TEST(FeatureChains, ADiscHasOneClosedChain) {
     expect_one_loop(network, centre, radius);
     EXPECT_NEAR(network.chains.at(0).contrast, kJump, 0.03 * kJump);
     EXPECT_GT(network.chains.at(0).sharpness, 0.9);
+  }
+}
+
+TEST(FeatureChains, FollowBothSidesOfAThinStroke) {
+  const Vector2d centre(50.3, 49.6);
+  for (const double width : {2.6, 3.0, 4.0}) {
+    const double inner = 40 - width / 2, outer = 40 + width / 2;
+    const Raster picture = box_filtered(100, 100, kDark, kBright, [&](double x, double y) {
+      const double radius = (Vector2d(x, y) - centre).norm();
+      return radius > inner && radius < outer ? 0 : 1;
+    });
+    const ChainNetwork network = feature_chains(picture);
+    expect_consistent(network);
+    double length = 0;  // of what lies on the two circles
+    for (const FeatureChain& chain : network.chains) {
+      for (std::size_t i = 1; i < chain.points.size(); ++i) {
+        const double radius = (chain.points[i] - centre).norm();
+        const double away = std::min(std::abs(radius - inner), std::abs(radius - outer));
+        if (away < 0.3) length += (chain.points[i] - chain.points[i - 1]).norm();
+      }
+    }
+    EXPECT_GT(length, 0.9 * 2 * std::numbers::pi * (inner + outer)) << width;
+    EXPECT_LE(network.chains.size(), 8) << width;
   }
 }
 

@@ -145,6 +145,8 @@ class Simplifier {
 
 BoundaryGraph boundary_graph(const FieldGrid<int>& labels) { return Tracer(labels).trace(); }
 
+void join_pairs(BoundaryGraph& graph) { Simplifier(graph).join_pairs(); }
+
 void simplify(BoundaryGraph& graph, std::size_t least_corners,
               const std::vector<char>& is_anchored) {
   Simplifier simplifier(graph);

@@ -22,8 +22,11 @@ struct BoundaryGraph {
 
 BoundaryGraph boundary_graph(const FieldGrid<int>& labels);
 
+/// Joins the two arcs of each node where two end.
+void join_pairs(BoundaryGraph& graph);
+
 /// Leaves out arcs with a free end, a node where nothing else ends and that `is_anchored` does not
-/// hold, that have fewer than `least_corners`; then joins the two arcs of each node where two end.
+/// hold, that have fewer than `least_corners`; then joins pairs.
 void simplify(BoundaryGraph& graph, std::size_t least_corners,
               const std::vector<char>& is_anchored);
 

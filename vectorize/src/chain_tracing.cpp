@@ -19,7 +19,8 @@ constexpr double kNodeReach = 2;    // pixels within which a junction blurs prof
 constexpr double kBlurred = 0.6;    // least sharpness anywhere along a run
 constexpr double kGap = 4;          // pixels that a run may be weak for
 constexpr double kSteepness = 0.3;  // least gradient per pixel and contrast
-constexpr double kOblique = 0.6;    // sine of the angle between an arc and the edge
+constexpr double kOblique = 0.4;    // sine of the angle between an arc and the edge
+constexpr double kLeastGood = 0.5;  // share of a run that is neither weak nor oblique
 constexpr int kArcCost = 64;        // in the pixels of parallel_rows
 
 /// The middle of an arc's k-th side between two cells.
@@ -86,7 +87,8 @@ std::vector<Run> runs_of(const Arc& arc, const PremultipliedColours& colours, do
     }
     if (contrast < options.contrast * count || sharpness < options.sharpness * count) return;
     // Profiles beside a junction show three colours.
-    found.push_back({begin <= gap ? 0 : begin, n - 1 - last <= gap ? n - 1 : last});
+    const Run run{begin <= gap ? 0 : begin, n - 1 - last <= gap ? n - 1 : last};
+    if (count >= kLeastGood * (run.last - run.begin + 1)) found.push_back(run);
   };
   int begin = -1, last = -1;
   for (int k = 0; k < n; ++k) {
@@ -164,10 +166,9 @@ TracedChain traced(const Arc& arc, const PremultipliedColours& colours, double c
 
 }  // namespace
 
-BoundaryGraph strong_runs(const Raster& picture, const BoundaryGraph& graph,
+BoundaryGraph strong_runs(const PremultipliedColours& colours, const BoundaryGraph& graph,
                           const FieldGrid<float>& gradient, double cell,
                           const ChainOptions& options, const RunContext& context) {
-  const PremultipliedColours colours(picture);
   std::vector<std::vector<Run>> runs(graph.arcs.size());
   parallel_rows(context, static_cast<int>(graph.arcs.size()), kArcCost, [&](int a) {
     if (!may_be_strong(graph.arcs[a], gradient, kSteepness * options.contrast)) return;
@@ -191,9 +192,9 @@ BoundaryGraph strong_runs(const Raster& picture, const BoundaryGraph& graph,
   return strong;
 }
 
-std::vector<TracedChain> traced_chains(const Raster& picture, const BoundaryGraph& graph,
-                                       double cell, const RunContext& context) {
-  const PremultipliedColours colours(picture);
+std::vector<TracedChain> traced_chains(const PremultipliedColours& colours,
+                                       const BoundaryGraph& graph, double cell,
+                                       const RunContext& context) {
   std::vector<TracedChain> chains(graph.arcs.size());
   parallel_rows(context, static_cast<int>(graph.arcs.size()), kArcCost,
                 [&](int a) { chains[a] = traced(graph.arcs[a], colours, cell); });

@@ -11,6 +11,8 @@ EdgeProfile edge_profile(const PremultipliedColours& colours, const Eigen::Vecto
   constexpr int kPerPixel = 4;       // samples
   constexpr int kLeast = kPerPixel;  // nearest place of a side
   constexpr double kEnough = 0.95;   // of the largest contrast
+  constexpr int kStep = 2;           // samples over which the contrast still grows ...
+  constexpr double kGrowth = 1.05;   // ... by at least this factor
   using Colour = PremultipliedColours::Colour;
   std::array<Colour, 2 * kReach + 1> line;
   for (int i = -kReach; i <= kReach; ++i) {
@@ -20,7 +22,10 @@ EdgeProfile edge_profile(const PremultipliedColours& colours, const Eigen::Vecto
     return (line[kReach + r] - line[kReach - r]).norm();
   };
   EdgeProfile profile;
-  for (int r = kLeast; r <= kReach; ++r) profile.contrast = std::max(profile.contrast, contrast(r));
+  for (int r = kLeast; r <= kReach; ++r) {
+    profile.contrast = std::max(profile.contrast, contrast(r));
+    if (r - kStep >= kLeast && contrast(r) <= kGrowth * contrast(r - kStep)) break;
+  }
   if (!(profile.contrast > 0)) return profile;
   int reach = kLeast;
   while (contrast(reach) < kEnough * profile.contrast) ++reach;

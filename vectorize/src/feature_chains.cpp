@@ -7,6 +7,7 @@
 
 #include "boundary_graph.h"
 #include "chain_network.h"
+#include "chain_rungs.h"
 #include "chain_separation.h"
 #include "chain_tracing.h"
 #include "option_checks.h"
@@ -29,12 +30,11 @@ constexpr float kNoise = 0.02f;            // gradients below it, per pixel, cou
 
 /// Norm of the differences over a pixel at the centres of the cells, per pixel, each a mean over
 /// half a pixel on either side (Sobel's), without which it undulates along oblique edges.
-FieldGrid<float> gradient_norm(const Raster& picture, int cells_per_pixel,
+FieldGrid<float> gradient_norm(const PremultipliedColours& colours, int cells_per_pixel,
                                const RunContext& context) {
   using Colour = PremultipliedColours::Colour;
   constexpr int kBand = 16;  // rows
-  const PremultipliedColours colours(picture);
-  FieldGrid<float> gradient(picture.width * cells_per_pixel, picture.height * cells_per_pixel);
+  FieldGrid<float> gradient(colours.width() * cells_per_pixel, colours.height() * cells_per_pixel);
   // The colours that neighbouring differences share lie on a lattice of half a pixel.
   const int step = 2 / cells_per_pixel;
   const auto place = [&](int i) { return 0.5 * i + 0.5 / cells_per_pixel - 0.5; };
@@ -94,13 +94,15 @@ ChainNetwork feature_chains(const Raster& picture, const ChainOptions& options,
   check_options(options);
   context.progress("chains", 0);
   const int fineness = 1LL * picture.width * picture.height <= kFinePixels ? 2 : 1;
-  const FieldGrid<float> gradient = gradient_norm(picture, fineness, context);
+  const PremultipliedColours colours(picture);
+  const FieldGrid<float> gradient = gradient_norm(colours, fineness, context);
   context.progress("chains", 0.3);
   const FieldGrid<unsigned char> height = levels(gradient);
   const double cell = 1.0 / fineness;
-  BoundaryGraph graph = strong_runs(
-      picture, boundary_graph(merge_shallow_basins(height, catchment_basins(height), kLeastDepth)),
-      gradient, cell, options, context);
+  BoundaryGraph lines =
+      boundary_graph(merge_shallow_basins(height, catchment_basins(height), kLeastDepth));
+  leave_out_rungs(lines, colours, gradient, cell, options.contrast);
+  BoundaryGraph graph = strong_runs(colours, lines, gradient, cell, options, context);
   context.progress("chains", 0.7);
   std::vector<Eigen::Vector2d> places;
   std::vector<char> is_on_border;
@@ -111,7 +113,7 @@ ChainNetwork feature_chains(const Raster& picture, const ChainOptions& options,
   }
   simplify(graph, static_cast<std::size_t>(options.min_length * kSidesPerPixel * fineness),
            is_on_border);
-  ChainNetwork network = chain_network(traced_chains(picture, graph, cell, context), places,
+  ChainNetwork network = chain_network(traced_chains(colours, graph, cell, context), places,
                                        picture.width, picture.height);
   separate_chains(network, kLeastSeparation, options.min_length);
   return network;
